@@ -1,0 +1,22 @@
+/* What C99 lacks and every freestanding program needs: the only place where compilers differ. */
+#ifndef BASE_COMPILER_H
+#define BASE_COMPILER_H
+
+/* Keeps memory accesses on their side. Enough between an interrupt and the code it interrupts on one core. */
+#define BASE_BARRIER() __asm__ volatile("" ::: "memory")
+
+#define BASE_JOIN_(a, b) a##b
+#define BASE_JOIN(a, b) BASE_JOIN_(a, b)
+
+/* Fails to compile where cond is false; name says what was expected. */
+#define BASE_STATIC_ASSERT(cond, name) \
+    typedef char BASE_JOIN(static_assert_##name##_, __LINE__)[(cond) ? 1 : -1] __attribute__((unused))
+
+#define BASE_NORETURN __attribute__((noreturn))
+#define BASE_INLINE static inline __attribute__((always_inline))
+#define BASE_NOINLINE __attribute__((noinline))
+#define BASE_LIKELY(cond) __builtin_expect(!!(cond), 1)
+#define BASE_UNLIKELY(cond) __builtin_expect(!!(cond), 0)
+#define BASE_COUNT(array) (sizeof(array) / sizeof((array)[0]))
+
+#endif

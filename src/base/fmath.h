@@ -1,0 +1,35 @@
+/* The few functions of float that the firmware needs, from + - * / and integer arithmetic alone: the same bits on every
+ * board and on the host, with or without an FPU. No hardware square root, no library. [ANY] */
+#ifndef BASE_FMATH_H
+#define BASE_FMATH_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#define FMATH_PI 3.14159265358979f
+
+/* Square root, correctly rounded, for value >= 0 (subnormals too); 0 for a negative value or NaN; inf for inf. */
+float fmath_sqrt(float value);
+
+/* sin(2 pi turns), turns as a fraction of 2^32 (0 = 0, 2^30 = a quarter turn). Error below 1e-7; odd and symmetric to
+ * the bit: sine(-t) = -sine(t), sine(half turn - t) = sine(t). */
+float fmath_sine_turns(uint32_t turns);
+
+/* Base-2 logarithm of a positive finite value, error below 1e-6 absolute. */
+float fmath_log2(float value);
+
+/* Nearest integer, ties away from zero; the caller keeps |value| below 2^31. */
+int32_t fmath_round_i32(float value);
+
+/* The bits of a float, and back. */
+uint32_t fmath_bits(float value);
+float fmath_from_bits(uint32_t bits);
+
+/* Finite: neither infinite nor NaN. */
+bool fmath_is_finite(float value);
+
+static inline float fmath_abs(float value) { return value < 0.0f ? -value : value; }
+static inline float fmath_max(float a, float b) { return a > b ? a : b; }
+static inline float fmath_min(float a, float b) { return a < b ? a : b; }
+
+#endif

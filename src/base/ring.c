@@ -1,0 +1,54 @@
+#include "base/ring.h"
+
+#include "base/assert.h"
+#include "base/compiler.h"
+#include "base/mem.h"
+
+static uint8_t *slot(const struct ring *ring, uint32_t index)
+{
+    return ring->records + (size_t)(index & (ring->capacity - 1u)) * ring->record_size;
+}
+
+void ring_init(struct ring *ring, void *storage, size_t record_size, uint32_t capacity)
+{
+    BASE_ASSERT(capacity != 0u && (capacity & (capacity - 1u)) == 0u);
+    ring->records = storage;
+    ring->record_size = record_size;
+    ring->capacity = capacity;
+    ring->head = 0u;
+    ring->tail = 0u;
+    ring->dropped = 0u;
+}
+
+uint32_t ring_fill(const struct ring *ring)
+{
+    return ring->head - ring->tail;
+}
+
+bool ring_push(struct ring *ring, const void *record)
+{
+    const uint32_t head = ring->head;
+
+    if (head - ring->tail == ring->capacity) {
+        ring->dropped++;
+        return false;
+    }
+    memcpy(slot(ring, head), record, ring->record_size);
+    BASE_BARRIER();
+    ring->head = head + 1u;
+    return true;
+}
+
+bool ring_pop(struct ring *ring, void *record)
+{
+    const uint32_t tail = ring->tail;
+
+    if (tail == ring->head) {
+        return false;
+    }
+    BASE_BARRIER();
+    memcpy(record, slot(ring, tail), ring->record_size);
+    BASE_BARRIER();
+    ring->tail = tail + 1u;
+    return true;
+}
