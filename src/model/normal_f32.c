@@ -1,0 +1,159 @@
+/* The linear normal oscillator, by RK4 or in closed form. */
+#include "model/normal_f32.h"
+
+#include "model/plant.h"
+#include "model/sine.h"
+
+/* Taylor series of order 9: below 1e-9 for the largest step of 0.4. It serves parts of a step and both states of
+ * contact (spring 1 or 0), with or without damping. */
+static void taylor(float damping, float spring, float n, float duration, float *y, float *w)
+{
+    const float d1 = *w;
+    const float d2 = n - damping * d1 - spring * *y;
+    const float d3 = -damping * d2 - spring * d1;
+    const float d4 = -damping * d3 - spring * d2;
+    const float d5 = -damping * d4 - spring * d3;
+    const float d6 = -damping * d5 - spring * d4;
+    const float d7 = -damping * d6 - spring * d5;
+    const float d8 = -damping * d7 - spring * d6;
+    const float d9 = -damping * d8 - spring * d7;
+    const float t = duration;
+    const float t2 = t * (1.0f / 2.0f);
+    const float t3 = t * (1.0f / 3.0f);
+    const float t4 = t * (1.0f / 4.0f);
+    const float t5 = t * (1.0f / 5.0f);
+    const float t6 = t * (1.0f / 6.0f);
+    const float t7 = t * (1.0f / 7.0f);
+    const float t8 = t * (1.0f / 8.0f);
+
+    *w = d1 + t * (d2 + t2 * (d3 + t3 * (d4 + t4 * (d5 + t5 * (d6 + t6 * (d7 + t7 * (d8 + t8 * d9)))))));
+    *y += t * (d1 + t2 * (d2 + t3 * (d3 + t4 * (d4 + t5 * (d5 + t6 * (d6 + t7 * (d7 + t8 * d8)))))));
+}
+
+/* With U the answer to a unit force from rest and S = U' that to a unit velocity, the map of (y, w) is
+ * [1 - U, S; -S, 1 - U - Cn S]. The identity is taken off so that a coefficient's rounding costs only part of a step. */
+static struct normal_f32_map make_map(float damping, float duration)
+{
+    float u = 0.0f;
+    float s = 0.0f;
+
+    taylor(damping, 1.0f, 1.0f, duration, &u, &s);
+    return (struct normal_f32_map){-u, s, -s, -u - damping * s};
+}
+
+void normal_f32_configure(struct normal_f32_coeffs *coeffs, const struct params *params, const struct scale *scale)
+{
+    coeffs->damping = scale->normal_damping;
+    coeffs->step = scale->step;
+    coeffs->phase_stride = SINE_GRID / scale->steps_per_period;
+    coeffs->contact = (uint8_t)params->contact;
+    coeffs->is_exact = (int)params->normal_method == NORMAL_EXACT;
+    coeffs->has_phase = coeffs->is_exact && scale->normal_damping == 0.0f && coeffs->contact != CONTACT_LIFT;
+    coeffs->full = make_map(scale->normal_damping, scale->step);
+    coeffs->half = make_map(scale->normal_damping, 0.5f * scale->step);
+}
+
+void normal_f32_reset(struct normal_f32 *normal, const struct normal_f32_coeffs *coeffs, float y, float w, float n)
+{
+    normal->y = y;
+    normal->w = w;
+    normal->n = n;
+    normal->cosine = y - n;
+    normal->sine = w;
+    normal->phase = 0u;
+    normal->is_lifted = coeffs->contact == CONTACT_LIFT && (y < 0.0f || (y == 0.0f && w < 0.0f));
+    normal->is_unloading_free = y == 0.0f && w == 0.0f && n >= 0.0f;
+}
+
+void normal_f32_set_load(struct normal_f32 *normal, const struct normal_f32_coeffs *coeffs, float n)
+{
+    const float change = n - normal->n;
+
+    normal->n = n;
+    normal->is_unloading_free = false;
+    if (coeffs->has_phase) {
+        normal->cosine -= change * sine_cosine_f32(normal->phase);
+        normal->sine -= change * sine_f32(normal->phase);
+    }
+}
+
+static void look_rk4(const struct normal_f32 *normal, const struct normal_f32_coeffs *coeffs, float duration,
+                     struct normal_f32_piece *piece)
+{
+    const float spring = normal->is_lifted ? 0.0f : 1.0f;
+    const float half = 0.5f * duration;
+    const float sixth = duration * (1.0f / 6.0f);
+    const float y1 = normal->y;
+    const float w1 = normal->w;
+    const float a1 = normal->n - coeffs->damping * w1 - spring * y1;
+    const float y2 = y1 + half * w1;
+    const float w2 = w1 + half * a1;
+    const float a2 = normal->n - coeffs->damping * w2 - spring * y2;
+    const float y3 = y1 + half * w2;
+    const float w3 = w1 + half * a2;
+    const float a3 = normal->n - coeffs->damping * w3 - spring * y3;
+    const float y4 = y1 + duration * w3;
+    const float w4 = w1 + duration * a3;
+    const float a4 = normal->n - coeffs->damping * w4 - spring * y4;
+
+    piece->y = y1 + sixth * (w1 + 2.0f * (w2 + w3) + w4);
+    piece->w = w1 + sixth * (a1 + 2.0f * (a2 + a3) + a4);
+    piece->p1 = normal_f32_force(normal, coeffs, y1);
+    piece->p2 = normal_f32_force(normal, coeffs, y2);
+    piece->p3 = normal_f32_force(normal, coeffs, y3);
+    piece->p4 = normal_f32_force(normal, coeffs, y4);
+}
+
+static void look_exact(const struct normal_f32 *normal, const struct normal_f32_coeffs *coeffs, float duration,
+                       bool is_whole, struct normal_f32_piece *piece)
+{
+    float middle_y = normal->y;
+    float middle_w = normal->w;
+
+    piece->y = normal->y;
+    piece->w = normal->w;
+    if (is_whole && !normal->is_lifted) {
+        const float d = normal->y - normal->n;
+
+        middle_y += coeffs->half.yy * d + coeffs->half.yw * normal->w;
+        piece->y += coeffs->full.yy * d + coeffs->full.yw * normal->w;
+        piece->w += coeffs->full.wy * d + coeffs->full.ww * normal->w;
+    } else {
+        const float spring = normal->is_lifted ? 0.0f : 1.0f;
+
+        taylor(coeffs->damping, spring, normal->n, 0.5f * duration, &middle_y, &middle_w);
+        taylor(coeffs->damping, spring, normal->n, duration, &piece->y, &piece->w);
+    }
+    piece->p1 = normal_f32_force(normal, coeffs, normal->y);
+    piece->p2 = normal_f32_force(normal, coeffs, middle_y);
+    piece->p3 = piece->p2;
+    piece->p4 = normal_f32_force(normal, coeffs, piece->y);
+}
+
+void normal_f32_look(const struct normal_f32 *normal, const struct normal_f32_coeffs *coeffs, float duration,
+                     bool is_whole, struct normal_f32_piece *piece)
+{
+    if (coeffs->is_exact) {
+        look_exact(normal, coeffs, duration, is_whole, piece);
+    } else {
+        look_rk4(normal, coeffs, duration, piece);
+    }
+}
+
+bool normal_f32_close_step(struct normal_f32 *normal, const struct normal_f32_coeffs *coeffs)
+{
+    normal->phase += coeffs->phase_stride;
+    if (coeffs->has_phase) {
+        const float cosine = sine_cosine_f32(normal->phase);
+        const float sine = sine_f32(normal->phase);
+
+        normal->y = normal->n + normal->cosine * cosine + normal->sine * sine;
+        normal->w = normal->sine * cosine - normal->cosine * sine;
+    }
+    if (normal->is_lifted && normal->y < -PLANT_GAP_MAX) {
+        normal->y = -PLANT_GAP_MAX;
+        normal->w = normal->w > 0.0f ? normal->w : 0.0f;
+        return true;
+    }
+    return false;
+}

@@ -1,0 +1,139 @@
+/* The table of parameters and what can be done with one of its rows. */
+#include "model/params.h"
+
+#include "base/decimal.h"
+#include "base/mem.h"
+
+const struct params_info params_table[] = {
+#define PARAM(id, field, symbol, unit, standard, low, high, change, help) \
+    {id, offsetof(struct params, field), #field, #symbol, unit, help, standard, low, high, PARAMS_##change},
+#include "model/params.def"
+#undef PARAM
+};
+
+const size_t params_count = sizeof params_table / sizeof params_table[0];
+
+void params_default(struct params *params)
+{
+#define PARAM(id, field, symbol, unit, standard, low, high, change, help) params->field = standard;
+#include "model/params.def"
+#undef PARAM
+}
+
+static bool is_named(const char *known, const char *name, size_t length)
+{
+    size_t i = 0u;
+
+    while (i < length && known[i] != '\0' && known[i] == name[i]) {
+        i++;
+    }
+    return i == length && known[i] == '\0';
+}
+
+const struct params_info *params_find(const char *name, size_t length)
+{
+    for (const struct params_info *info = params_table; info < params_table + params_count; info++) {
+        if (is_named(info->symbol, name, length) || is_named(info->field, name, length)) {
+            return info;
+        }
+    }
+    return NULL;
+}
+
+float params_value(const struct params *params, const struct params_info *info)
+{
+    float value;
+
+    memcpy(&value, (const char *)params + info->offset, sizeof value);
+    return value;
+}
+
+void params_set(struct params *params, const struct params_info *info, float value)
+{
+    memcpy((char *)params + info->offset, &value, sizeof value);
+}
+
+bool params_is_choice(const struct params_info *info)
+{
+    for (const char *c = info->unit; *c != '\0'; c++) {
+        if (*c == '|') {
+            return true;
+        }
+    }
+    return false;
+}
+
+const char *params_choice_name(const struct params_info *info, unsigned index, size_t *length)
+{
+    const char *name = info->unit;
+
+    for (; index > 0u; index--) {
+        while (*name != '|') {
+            if (*name == '\0') {
+                return NULL;
+            }
+            name++;
+        }
+        name++;
+    }
+    *length = 0u;
+    while (name[*length] != '\0' && name[*length] != '|') {
+        (*length)++;
+    }
+    return name;
+}
+
+static enum error parse_choice(const struct params_info *info, const char *text, size_t length, float *value)
+{
+    const char *name;
+    size_t name_length = 0u;
+
+    for (unsigned i = 0u; (name = params_choice_name(info, i, &name_length)) != NULL; i++) {
+        if (name_length == length && memcmp(name, text, length) == 0) {
+            *value = (float)i;
+            return ERROR_OK;
+        }
+    }
+    return ERROR_OUT_OF_RANGE;
+}
+
+enum error params_parse(const struct params_info *info, const char *text, size_t length, float *value)
+{
+    if (params_is_choice(info)) {
+        return parse_choice(info, text, length, value);
+    }
+    return decimal_parse_f32(text, length, value) ? ERROR_OK : ERROR_BAD_NUMBER;
+}
+
+/* Choices and counts hold whole numbers. */
+static bool is_whole(const struct params_info *info)
+{
+    return params_is_choice(info) || is_named(info->unit, "count", 5u);
+}
+
+struct params_problem params_check(const struct params *params)
+{
+    struct params_problem problem = {ERROR_OK, NULL, 0.0f, 0.0f};
+
+    for (const struct params_info *info = params_table; info < params_table + params_count; info++) {
+        const float value = params_value(params, info);
+
+        /* Asks "is it inside?", so that NaN, which is neither below nor above, is refused. */
+        if (!(value >= info->low && value <= info->high) ||
+            (is_whole(info) && (float)(int32_t)value != value)) {
+            problem = (struct params_problem){ERROR_OUT_OF_RANGE, info, info->low, info->high};
+            return problem;
+        }
+    }
+    return problem;
+}
+
+const struct params_info *params_restart_change(const struct params *from, const struct params *to)
+{
+    for (const struct params_info *info = params_table; info < params_table + params_count; info++) {
+        if (info->change == PARAMS_RESTART && params_value(from, info) != params_value(to, info)) {
+            return info;
+        }
+    }
+    return NULL;
+}

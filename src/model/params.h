@@ -1,0 +1,74 @@
+/* Everything that can be set, in SI units: one struct, one default set, one range check, all expanded from params.def.
+ * Values are single precision; a choice holds the index of its name. */
+#ifndef MODEL_PARAMS_H
+#define MODEL_PARAMS_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include "base/errors.h"
+
+enum { PARAMS_VERSION = 1 };
+
+struct params {
+#define PARAM(id, field, symbol, unit, standard, low, high, change, help) float field;
+#include "model/params.def"
+#undef PARAM
+};
+
+/* Choices by name; their order is that of the names in params.def. */
+enum { CONTACT_BILATERAL, CONTACT_NO_PULL, CONTACT_LIFT };
+enum { LOAD_CONSTANT, LOAD_STEP, LOAD_RAMP, LOAD_SINE };
+enum { SPEED_CONSTANT, SPEED_STEP, SPEED_RAMP };
+enum { ARITH_F32 };
+enum { NORMAL_RK4, NORMAL_EXACT };
+enum { METHOD_EVENT, METHOD_NAIVE };
+
+enum params_change { PARAMS_LIVE, PARAMS_RESTART };
+
+struct params_info {
+    uint16_t id;
+    uint16_t offset; /* of the field in struct params, bytes */
+    const char *field, *symbol, *unit, *help;
+    float standard, low, high; /* default and inclusive range */
+    enum params_change change;
+};
+
+/* Why a set was refused: the parameter, and where it applies the range that would have been accepted. */
+struct params_problem {
+    enum error error;
+    const struct params_info *info; /* NULL if no single parameter is to blame */
+    float low, high;                /* meaningful for OUT_OF_RANGE and OUT_OF_SCALE */
+};
+
+extern const struct params_info params_table[];
+extern const size_t params_count;
+
+/* Sets every field to its default. [ANY] */
+void params_default(struct params *params);
+
+/* Finds a parameter by symbol or field name of the given length; NULL if there is none. [MAIN] */
+const struct params_info *params_find(const char *name, size_t length);
+
+/* The value that info describes, and its change. Setting checks nothing. [ANY] */
+float params_value(const struct params *params, const struct params_info *info);
+void params_set(struct params *params, const struct params_info *info, float value);
+
+/* Is the parameter a choice? Then its unit is the list of names. [ANY] */
+bool params_is_choice(const struct params_info *info);
+
+/* Start and length of a choice's name; length 0 if there is no such index. [ANY] */
+const char *params_choice_name(const struct params_info *info, unsigned index, size_t *length);
+
+/* Reads a value as typed: a name for a choice, else a number. BAD_NUMBER leaves *value as it was; the range is not
+ * checked here. [MAIN] */
+enum error params_parse(const struct params_info *info, const char *text, size_t length, float *value);
+
+/* Checks every field against its range; a choice must be a whole number. NaN lies in no range. [MAIN] */
+struct params_problem params_check(const struct params *params);
+
+/* Do two sets differ in a parameter that needs a restart? Returns the first, or NULL. [MAIN] */
+const struct params_info *params_restart_change(const struct params *from, const struct params *to);
+
+#endif

@@ -1,0 +1,174 @@
+/* The border between SI and the dimensionless model. */
+#include "model/scale.h"
+
+#include "base/fmath.h"
+
+static const struct params_problem no_problem = {ERROR_OK, NULL, 0.0f, 0.0f};
+
+static struct params_problem blame(enum error error, const char *symbol, float low, float high)
+{
+    size_t length = 0u;
+
+    while (symbol[length] != '\0') {
+        length++;
+    }
+    return (struct params_problem){error, params_find(symbol, length), low, high};
+}
+
+uint32_t scale_steps_per_period(const struct params *params)
+{
+    return 16u << (uint32_t)params->steps_per_period;
+}
+
+float scale_load_peak_n(const struct params *params)
+{
+    switch ((int)params->load_profile) {
+    case LOAD_STEP:
+    case LOAD_RAMP:
+        return fmath_max(params->load_n, params->load_end_n);
+    case LOAD_SINE:
+        return params->load_n + params->load_end_n;
+    default:
+        return params->load_n;
+    }
+}
+
+float scale_speed_peak_m_per_s(const struct params *params)
+{
+    const float start = fmath_abs(params->speed_m_per_s);
+
+    return (int)params->speed_profile == SPEED_CONSTANT
+               ? start
+               : fmath_max(start, fmath_abs(params->speed_end_m_per_s));
+}
+
+/* Parameters that only make sense together. */
+static struct params_problem check_together(const struct params *params)
+{
+    if ((int)params->load_profile == LOAD_RAMP && params->load_end_s < params->load_start_s) {
+        return blame(ERROR_OUT_OF_RANGE, "t2", params->load_start_s, 1e6f);
+    }
+    if ((int)params->speed_profile == SPEED_RAMP && params->speed_end_s < params->speed_start_s) {
+        return blame(ERROR_OUT_OF_RANGE, "tv2", params->speed_start_s, 1e6f);
+    }
+    if ((int)params->tangential_method == METHOD_NAIVE && (int)params->normal_method != NORMAL_RK4) {
+        return blame(ERROR_NOT_SERVED, "method", 0.0f, 0.0f);
+    }
+    return no_problem;
+}
+
+static void choose_units(const struct params *params, float impedance, struct scale *scale)
+{
+    const float load = params->load_max_n > 0.0f ? params->load_max_n
+                                                 : SCALE_RESERVE * scale_load_peak_n(params);
+    const float speed = params->speed_max_m_per_s > 0.0f
+                            ? params->speed_max_m_per_s
+                            : SCALE_RESERVE * scale_speed_peak_m_per_s(params);
+
+    /* Without any load the contact still needs a unit: any will do, since n = 0 in all of them. */
+    scale->load_n = load > 0.0f ? load : 1.0f;
+    scale->speed_m_per_s = fmath_max(speed, params->friction_static_ratio * load / impedance);
+}
+
+/* Does what the set can reach lie inside the units? */
+static struct params_problem check_fit(const struct params *params, const struct scale *scale)
+{
+    if (scale_load_peak_n(params) > scale->load_n) {
+        return blame(ERROR_OUT_OF_SCALE, "N0", 0.0f, scale->load_n);
+    }
+    if (scale_speed_peak_m_per_s(params) > scale->speed_m_per_s) {
+        return blame(ERROR_OUT_OF_SCALE, "v0", -scale->speed_m_per_s, scale->speed_m_per_s);
+    }
+    if (!(scale->stiffness <= SCALE_STIFFNESS_MAX)) {
+        return blame(ERROR_OUT_OF_SCALE, "kt", 0.0f,
+                     SCALE_STIFFNESS_MAX * params->stiffness_normal_n_per_m -
+                         params->stiffness_caliper_n_per_m);
+    }
+    if (!(scale->friction <= SCALE_FRICTION_MAX)) {
+        return blame(ERROR_OUT_OF_SCALE, "mu_s", 0.0f,
+                     SCALE_FRICTION_MAX / scale->friction * params->friction_static_ratio);
+    }
+    if (!(fmath_abs(scale->friction_slope) <= SCALE_FRICTION_MAX)) {
+        const float limit = SCALE_FRICTION_MAX / fmath_abs(scale->friction_slope) *
+                            fmath_abs(params->friction_slope_s_per_m);
+        return blame(ERROR_OUT_OF_SCALE, "alpha", -limit, limit);
+    }
+    return no_problem;
+}
+
+/* One step must resolve the fastest of the normal and tangential oscillation and of both dampings. */
+static struct params_problem check_step(const struct scale *scale)
+{
+    const float fastest = fmath_max(fmath_max(1.0f, fmath_sqrt(scale->stiffness)),
+                                    fmath_max(scale->damping, scale->normal_damping));
+
+    if (!(scale->step * fastest <= SCALE_STEP_MAX)) {
+        return blame(ERROR_STEP_TOO_LARGE, "spp", 0.0f, 0.0f);
+    }
+    return no_problem;
+}
+
+static uint32_t length_shift(float stiffness)
+{
+    uint32_t shift = 0u;
+
+    while (shift < 8u && stiffness * (float)(1u << shift) < 0.25f) {
+        shift++;
+    }
+    return shift;
+}
+
+static void derive_groups(const struct params *params, float impedance, struct scale *scale)
+{
+    const float friction_unit = scale->load_n / (impedance * scale->speed_m_per_s);
+
+    scale->damping = params->damping_n_s_per_m / impedance;
+    scale->stiffness = (params->stiffness_contact_n_per_m + params->stiffness_caliper_n_per_m) /
+                       params->stiffness_normal_n_per_m;
+    scale->friction = params->friction_static_ratio * friction_unit;
+    scale->friction_slope = params->friction_slope_s_per_m * scale->load_n / impedance;
+    scale->has_floor = params->friction_floor_ratio > -1e29f;
+    scale->friction_floor = scale->has_floor ? params->friction_floor_ratio * friction_unit : 0.0f;
+    scale->normal_damping = params->damping_normal_n_s_per_m / impedance;
+    scale->length_shift = length_shift(scale->stiffness);
+}
+
+struct params_problem scale_derive(const struct params *params, const struct scale *latched, struct scale *scale)
+{
+    struct params_problem problem = params_check(params);
+    const float impedance = fmath_sqrt(params->mass_kg) * fmath_sqrt(params->stiffness_normal_n_per_m);
+
+    if (problem.error == ERROR_OK) {
+        problem = check_together(params);
+    }
+    if (problem.error != ERROR_OK) {
+        return problem;
+    }
+    if (latched != NULL) {
+        scale->load_n = latched->load_n;
+        scale->speed_m_per_s = latched->speed_m_per_s;
+    } else {
+        choose_units(params, impedance, scale);
+    }
+    if (!(scale->speed_m_per_s > 0.0f)) {
+        return (struct params_problem){ERROR_NO_SCALE, NULL, 0.0f, 0.0f};
+    }
+    scale->omega_rad_per_s = fmath_sqrt(params->stiffness_normal_n_per_m / params->mass_kg);
+    scale->length_m = scale->speed_m_per_s / scale->omega_rad_per_s;
+    scale->normal_m = scale->load_n / params->stiffness_normal_n_per_m;
+    scale->force_n = impedance * scale->speed_m_per_s;
+    scale->steps_per_period = scale_steps_per_period(params);
+    scale->step = 2.0f * FMATH_PI / (float)scale->steps_per_period;
+    scale->step_s = scale->step / scale->omega_rad_per_s;
+    derive_groups(params, impedance, scale);
+
+    problem = check_fit(params, scale);
+    return problem.error != ERROR_OK ? problem : check_step(scale);
+}
+
+float scale_rk4_loss_per_period(const struct scale *scale)
+{
+    const float h2 = scale->step * scale->step;
+
+    return 2.0f * FMATH_PI / 144.0f * h2 * h2 * scale->step;
+}

@@ -1,0 +1,15 @@
+/* Sine and cosine on the grid of the integrator: phases are whole multiples of 1/1024 turn, so they never drift. */
+#ifndef MODEL_SINE_H
+#define MODEL_SINE_H
+
+#include <stdint.h>
+
+enum { SINE_GRID = 1024 }; /* points per turn, the largest number of steps per period */
+
+/* sin(2 pi index/1024), correctly rounded; any index. [ANY] */
+float sine_f32(uint32_t index);
+
+/* cos(2 pi index/1024). [ANY] */
+static inline float sine_cosine_f32(uint32_t index) { return sine_f32(index + SINE_GRID / 4u); }
+
+#endif

@@ -1,0 +1,416 @@
+/* One step of the tangential equation, in pieces between switches of regime. */
+#include "model/step_f32.h"
+
+#include "base/fmath.h"
+
+#define DISPLACEMENT_MAX 4096.0f /* beyond it the plant has left its domain; in the model's units */
+#define NORMAL_MAX 64.0f
+
+/* What is left of the step, and what of it is to be reported. */
+struct progress {
+    float rest; /* still to go, in 1/wn */
+    bool is_whole; /* nothing was cut off yet */
+    float stick, slip_minus;
+    unsigned events, contacts;
+    bool is_capped, is_lifted;
+};
+
+/* End of one slip piece: position, velocity, acceleration. */
+struct slip_end {
+    float x, v, acceleration;
+};
+
+static float signed_by(int8_t sign, float value)
+{
+    return sign < 0 ? -value : value;
+}
+
+/* x'' in slip with the sign of vr given. Mirrored states give mirrored bits. */
+BASE_INLINE float acceleration(const struct step_f32_coeffs *c, float disc, int8_t sign, float x, float v, float p)
+{
+    float mu = c->friction + c->slope * signed_by(sign, disc - v);
+
+    if (c->has_floor && mu < c->floor) {
+        mu = c->floor;
+    }
+    return signed_by(sign, mu) * p - c->damping * v - c->stiffness * x;
+}
+
+/* RK4 over one piece; the fourth-order combination is formed term by term so that its fixed-point twin cannot overflow. */
+BASE_INLINE float slip_start(const struct step_f32 *s, const struct step_f32_coeffs *c,
+                             const struct normal_f32_piece *piece)
+{
+    return acceleration(c, s->disc, s->mode, s->x, s->v, piece->p1);
+}
+
+static void slip(const struct step_f32 *s, const struct step_f32_coeffs *c, const struct normal_f32_piece *piece,
+                 float duration, float a1, struct slip_end *end)
+{
+    const float half = 0.5f * duration;
+    const float sixth = duration * (1.0f / 6.0f);
+    const float disc = s->disc;
+    const int8_t sign = s->mode;
+    const float x2 = s->x + half * s->v;
+    const float v2 = s->v + half * a1;
+    const float a2 = acceleration(c, disc, sign, x2, v2, piece->p2);
+    const float x3 = s->x + half * v2;
+    const float v3 = s->v + half * a2;
+    const float a3 = acceleration(c, disc, sign, x3, v3, piece->p3);
+    const float x4 = s->x + duration * v3;
+    const float v4 = s->v + duration * a3;
+    const float a4 = acceleration(c, disc, sign, x4, v4, piece->p4);
+
+    end->x = s->x + sixth * (s->v + 2.0f * (v2 + v3) + v4);
+    end->v = s->v + sixth * (a1 + 2.0f * (a2 + a3) + a4);
+}
+
+/* At vr = 0 the pad sticks if friction can hold it; otherwise it slips to the side that the need pulls it to. The same
+ * test serves entry and exit: static and kinetic friction are equal at vr = 0. */
+static int8_t regime_at_rest(const struct step_f32 *s, const struct step_f32_coeffs *c, float extra)
+{
+    const float need = c->damping * s->disc + c->stiffness * s->x + extra;
+    const float limit = c->friction * normal_f32_force(&s->normal, &c->normal, s->normal.y);
+
+    if (need <= limit && -need <= limit) {
+        return PLANT_STICK;
+    }
+    return need > 0.0f ? PLANT_SLIP_PLUS : PLANT_SLIP_MINUS;
+}
+
+/* The disc has a new speed. A sticking pad follows if friction can also accelerate it; a slipping one keeps its speed. */
+static void set_speed(struct step_f32 *s, const struct step_f32_coeffs *c, float speed)
+{
+    const float change = speed - s->disc;
+
+    s->disc = speed;
+    if (s->mode == PLANT_STICK && regime_at_rest(s, c, change / c->normal.step) == PLANT_STICK) {
+        s->v = speed;
+        return;
+    }
+    if (s->v != speed) {
+        s->mode = s->v < speed ? PLANT_SLIP_PLUS : PLANT_SLIP_MINUS;
+    } else {
+        s->mode = regime_at_rest(s, c, 0.0f);
+    }
+}
+
+/* Books a piece that has been gone through. */
+static void advance(struct step_f32 *s, struct progress *progress, const struct normal_f32_piece *piece, float duration)
+{
+    if (s->mode == PLANT_STICK) {
+        progress->stick += duration;
+    } else if (s->mode == PLANT_SLIP_MINUS) {
+        progress->slip_minus += duration;
+    }
+    normal_f32_move(&s->normal, piece);
+    progress->rest -= duration;
+    progress->is_whole = false;
+}
+
+/* Looks for vr = 0 in a slip piece, also for a dip below 0 and back. Returns the place in (0, 1], 0 for "at the start",
+ * or a negative number for "not in this piece". */
+static float find_crossing(const struct step_f32 *s, const struct step_f32_coeffs *c,
+                           const struct normal_f32_piece *piece, float duration, float a1, const struct slip_end *end)
+{
+    const float f0 = signed_by(s->mode, s->disc - s->v);
+    const float f1 = signed_by(s->mode, s->disc - end->v);
+    const float d0 = -signed_by(s->mode, a1) * duration;
+    struct hermite_f32 vr;
+    float upper = 1.0f;
+    float p_end;
+    float d1;
+
+    /* A curve that stays above its first tangent stays above 0 when the tangent does: the usual case, decided cheaply. */
+    if (f1 >= 0.0f && (d0 >= 0.0f || f0 + d0 > 0.0f || f0 <= 0.0f)) {
+        return -1.0f;
+    }
+    p_end = normal_f32_force(&s->normal, &c->normal, piece->y);
+    d1 = -signed_by(s->mode, acceleration(c, s->disc, s->mode, end->x, end->v, p_end)) * duration;
+    vr = hermite_f32_make(f0, d0, f1, d1);
+    if (f1 >= 0.0f) {
+        if (d1 <= 0.0f) {
+            return -1.0f;
+        }
+        upper = hermite_f32_minimum(&vr);
+        if (hermite_f32_value(&vr, upper) >= 0.0f) {
+            return -1.0f;
+        }
+    }
+    if (f0 <= 0.0f) {
+        return d0 <= 0.0f ? 0.0f : hermite_f32_root_after_start(&vr);
+    }
+    return hermite_f32_root(&vr, upper);
+}
+
+static void slip_piece(struct step_f32 *s, const struct step_f32_coeffs *c, struct progress *progress,
+                       struct normal_f32_piece *piece, float duration)
+{
+    const float a1 = slip_start(s, c, piece);
+    struct slip_end end;
+    float place;
+
+    slip(s, c, piece, duration, a1, &end);
+    place = find_crossing(s, c, piece, duration, a1, &end);
+    if (place >= 0.0f && progress->events == PLANT_EVENTS_MAX) {
+        progress->is_capped = true;
+        place = -1.0f;
+    }
+    if (BASE_LIKELY(place < 0.0f)) {
+        advance(s, progress, piece, duration);
+        s->x = end.x;
+        s->v = end.v;
+        return;
+    }
+    progress->events++;
+    if (place > 0.0f) {
+        const float part = place * duration;
+
+        normal_f32_look(&s->normal, &c->normal, part, false, piece);
+        slip(s, c, piece, part, a1, &end);
+        advance(s, progress, piece, part);
+        s->x = end.x;
+    }
+    s->v = s->disc;
+    s->mode = regime_at_rest(s, c, 0.0f);
+}
+
+/* Slope of the contact force with time: 0 where the force is held at 0. */
+static float force_rate(const struct normal_f32 *normal, const struct normal_f32_coeffs *c, float y, float w)
+{
+    return normal_f32_force(normal, c, y) == y ? w : 0.0f;
+}
+
+static void stick_piece(struct step_f32 *s, const struct step_f32_coeffs *c, struct progress *progress,
+                        struct normal_f32_piece *piece, float duration)
+{
+    const float x_end = s->x + s->disc * duration;
+    const float need_end = c->damping * s->disc + c->stiffness * x_end;
+    const int8_t side = need_end > 0.0f ? PLANT_SLIP_PLUS : PLANT_SLIP_MINUS;
+    const float spare_end = c->friction * normal_f32_force(&s->normal, &c->normal, piece->y) - signed_by(side, need_end);
+    float need_start;
+    float spare_start;
+    float part = 0.0f;
+
+    if (BASE_LIKELY(spare_end >= 0.0f) || progress->events == PLANT_EVENTS_MAX) {
+        progress->is_capped = progress->is_capped || spare_end < 0.0f;
+        advance(s, progress, piece, duration);
+        s->x = x_end;
+        return;
+    }
+    progress->events++;
+    need_start = c->damping * s->disc + c->stiffness * s->x;
+    spare_start = c->friction * piece->p1 - signed_by(side, need_start);
+    if (spare_start > 0.0f) {
+        const float pull = signed_by(side, c->stiffness * s->disc);
+        const float rate_start = c->friction * force_rate(&s->normal, &c->normal, s->normal.y, s->normal.w) - pull;
+        const float rate_end = c->friction * force_rate(&s->normal, &c->normal, piece->y, piece->w) - pull;
+        const struct hermite_f32 spare =
+            hermite_f32_make(spare_start, rate_start * duration, spare_end, rate_end * duration);
+
+        part = hermite_f32_root(&spare, 1.0f) * duration;
+    }
+    if (part > 0.0f) {
+        normal_f32_look(&s->normal, &c->normal, part, false, piece);
+        s->x += s->disc * part;
+        advance(s, progress, piece, part);
+    }
+    s->mode = side;
+}
+
+/* Where the spring lets go or takes hold (contact lift) the piece ends there. Returns the piece's duration. */
+static float cut_at_contact(const struct step_f32 *s, const struct step_f32_coeffs *c, struct progress *progress,
+                            struct normal_f32_piece *piece, bool *changes)
+{
+    const struct normal_f32 *normal = &s->normal;
+    const float sign = normal->is_lifted ? -1.0f : 1.0f;
+    const float duration = progress->rest;
+    float part;
+
+    *changes = false;
+    if (c->normal.contact != CONTACT_LIFT || sign * piece->y >= 0.0f || progress->contacts == PLANT_CONTACTS_MAX) {
+        return duration;
+    }
+    {
+        struct hermite_f32 gap = hermite_f32_make(sign * normal->y, sign * normal->w * duration, sign * piece->y,
+                                                  sign * piece->w * duration);
+
+        part = gap.value0 > 0.0f      ? hermite_f32_root(&gap, 1.0f) * duration
+               : gap.slope0 > 0.0f ? hermite_f32_root_after_start(&gap) * duration
+                                      : 0.0f;
+    }
+    *changes = true;
+    if (part > 0.0f) {
+        normal_f32_look(normal, &c->normal, part, false, piece);
+    }
+    return part;
+}
+
+static void change_contact(struct step_f32 *s, struct progress *progress)
+{
+    progress->contacts++;
+    s->normal.y = 0.0f;
+    s->normal.is_lifted = s->normal.w < 0.0f;
+    if (s->normal.is_lifted && s->mode == PLANT_STICK) {
+        /* Nothing holds the pad any more; its spring decides where it goes. */
+        s->mode = s->x * s->disc >= 0.0f ? PLANT_SLIP_PLUS : PLANT_SLIP_MINUS;
+    }
+}
+
+static void event_step(struct step_f32 *s, const struct step_f32_coeffs *c, struct progress *progress)
+{
+    const float least = 1e-6f * c->normal.step;
+
+    while (progress->rest > least) {
+        struct normal_f32_piece piece;
+        float duration;
+        bool contact_changes;
+        const unsigned events = progress->events;
+
+        normal_f32_look(&s->normal, &c->normal, progress->rest, progress->is_whole, &piece);
+        duration = cut_at_contact(s, c, progress, &piece, &contact_changes);
+        if (duration > 0.0f) {
+            if (s->mode == PLANT_STICK) {
+                stick_piece(s, c, progress, &piece, duration);
+            } else {
+                slip_piece(s, c, progress, &piece, duration);
+            }
+        }
+        if (contact_changes && progress->events == events) {
+            change_contact(s, progress);
+        }
+        progress->is_lifted = progress->is_lifted || s->normal.y < 0.0f;
+    }
+}
+
+/* The sign of vr afresh at every stage, 0 at vr = 0, and no stick. */
+static float naive_acceleration(const struct step_f32_coeffs *c, float disc, float x, float v, float p)
+{
+    const int8_t sign = (int8_t)((disc > v) - (disc < v));
+
+    return sign == 0 ? -c->damping * v - c->stiffness * x : acceleration(c, disc, sign, x, v, p);
+}
+
+static void naive_step(struct step_f32 *s, const struct step_f32_coeffs *c, struct progress *progress)
+{
+    const float h = progress->rest;
+    struct normal_f32_piece piece;
+    float a1, a2, a3, a4, v2, v3, v4;
+
+    normal_f32_look(&s->normal, &c->normal, h, true, &piece);
+    a1 = naive_acceleration(c, s->disc, s->x, s->v, piece.p1);
+    v2 = s->v + 0.5f * h * a1;
+    a2 = naive_acceleration(c, s->disc, s->x + 0.5f * h * s->v, v2, piece.p2);
+    v3 = s->v + 0.5f * h * a2;
+    a3 = naive_acceleration(c, s->disc, s->x + 0.5f * h * v2, v3, piece.p3);
+    v4 = s->v + h * a3;
+    a4 = naive_acceleration(c, s->disc, s->x + h * v3, v4, piece.p4);
+    s->x += h * (1.0f / 6.0f) * (s->v + 2.0f * (v2 + v3) + v4);
+    s->v += h * (1.0f / 6.0f) * (a1 + 2.0f * (a2 + a3) + a4);
+    s->mode = (int8_t)((s->disc > s->v) - (s->disc < s->v));
+    advance(s, progress, &piece, h);
+    progress->is_lifted = s->normal.y < 0.0f;
+    if (c->normal.contact == CONTACT_LIFT) {
+        s->normal.is_lifted = s->normal.y < 0.0f;
+    }
+}
+
+/* Q4.27, saturating; a NaN comes out as 0 and is flagged. */
+static int32_t to_q27(float value, bool *is_saturated)
+{
+    const float limit = 15.9999990f;
+
+    if (!(value <= limit && value >= -limit)) {
+        *is_saturated = true;
+        return value > limit ? INT32_MAX : value < -limit ? -INT32_MAX : 0;
+    }
+    return (int32_t)(value * (float)(1 << PLANT_FRACTION_BITS));
+}
+
+static uint32_t to_share(float part, float whole)
+{
+    const float share = part / whole;
+
+    return share >= 1.0f ? PLANT_SHARE_ONE : share > 0.0f ? (uint32_t)(share * (float)PLANT_SHARE_ONE) : 0u;
+}
+
+static void report(const struct step_f32 *s, const struct step_f32_coeffs *c, const struct progress *progress,
+                   bool is_gap_held, struct plant_output *output)
+{
+    output->is_saturated = false;
+    output->x = to_q27(s->x * c->output_length, &output->is_saturated);
+    output->v = to_q27(s->v, &output->is_saturated);
+    output->y = to_q27(s->normal.y, &output->is_saturated);
+    output->w = to_q27(s->normal.w, &output->is_saturated);
+    output->disc = to_q27(s->disc, &output->is_saturated);
+    output->stick = progress->stick > 0.0f ? to_share(progress->stick, c->normal.step) : 0u;
+    output->slip_minus = progress->slip_minus > 0.0f ? to_share(progress->slip_minus, c->normal.step) : 0u;
+    output->mode = s->mode;
+    output->events = (uint8_t)progress->events;
+    output->is_capped = progress->is_capped;
+    output->is_lifted = progress->is_lifted;
+    output->is_gap_held = is_gap_held;
+}
+
+void step_f32_configure(struct step_f32_coeffs *coeffs, const struct params *params, const struct scale *scale)
+{
+    coeffs->damping = scale->damping;
+    coeffs->stiffness = scale->stiffness;
+    coeffs->friction = scale->friction;
+    coeffs->slope = scale->friction_slope;
+    coeffs->floor = scale->friction_floor;
+    coeffs->has_floor = scale->has_floor;
+    coeffs->is_naive = (int)params->tangential_method == METHOD_NAIVE;
+    coeffs->output_length = 1.0f / (float)(1u << scale->length_shift);
+    normal_f32_configure(&coeffs->normal, params, scale);
+}
+
+void step_f32_reset(struct step_f32 *state, const struct step_f32_coeffs *coeffs, const struct params *params,
+                    const struct scale *scale, struct step_f32_input first)
+{
+    state->x = params->x_initial_m / scale->length_m;
+    state->v = params->xd_initial_m_per_s / scale->speed_m_per_s;
+    normal_f32_reset(&state->normal, &coeffs->normal, params->y_initial_m / scale->normal_m,
+                     params->yd_initial_m_per_s / (scale->normal_m * scale->omega_rad_per_s), first.load);
+    state->disc = state->v;
+    state->mode = PLANT_SLIP_PLUS;
+    set_speed(state, coeffs, first.speed);
+}
+
+void step_f32_advance(struct step_f32 *state, const struct step_f32_coeffs *coeffs, struct step_f32_input input,
+                      struct plant_output *output)
+{
+    struct progress progress = {coeffs->normal.step, true, 0.0f, 0.0f, 0u, 0u, false, false};
+    bool is_gap_held;
+
+    if (input.load != state->normal.n) {
+        normal_f32_set_load(&state->normal, &coeffs->normal, input.load);
+    }
+    if (input.speed != state->disc) {
+        set_speed(state, coeffs, input.speed);
+    }
+    if (coeffs->is_naive) {
+        naive_step(state, coeffs, &progress);
+    } else {
+        event_step(state, coeffs, &progress);
+    }
+    is_gap_held = normal_f32_close_step(&state->normal, &coeffs->normal);
+    report(state, coeffs, &progress, is_gap_held, output);
+}
+
+float step_f32_friction(const struct step_f32 *state, const struct step_f32_coeffs *coeffs)
+{
+    const float p = normal_f32_force(&state->normal, &coeffs->normal, state->normal.y);
+
+    if (state->mode == PLANT_STICK) {
+        return coeffs->damping * state->v + coeffs->stiffness * state->x;
+    }
+    return acceleration(coeffs, state->disc, state->mode, state->x, state->v, p) + coeffs->damping * state->v +
+           coeffs->stiffness * state->x;
+}
+
+bool step_f32_is_outside(const struct step_f32 *state)
+{
+    /* Asked as "is it inside?", so that NaN is outside. */
+    return !(fmath_abs(state->v) <= SCALE_FAULT_SPEED && fmath_abs(state->x) <= DISPLACEMENT_MAX &&
+             fmath_abs(state->normal.y) <= NORMAL_MAX && fmath_abs(state->normal.w) <= NORMAL_MAX);
+}

@@ -1,0 +1,51 @@
+/* The plant in single precision: one step of Eq. 20 with the slip sign frozen per piece, switches of regime located inside
+ * the step, and an explicit stick state. PHYSICS and the reasons: MODEL.md. Pure: no I/O, no globals, no time. */
+#ifndef MODEL_STEP_F32_H
+#define MODEL_STEP_F32_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "model/normal_f32.h"
+#include "model/plant.h"
+#include "model/scale.h"
+
+struct step_f32_coeffs {
+    float damping, stiffness, friction, slope, floor; /* C, Z2, mu, eps, floor of mu */
+    bool has_floor;
+    bool is_naive;        /* RK4 on the raw sign, no stick: for comparison only */
+    float output_length;  /* 1/2^length_shift */
+    struct normal_f32_coeffs normal;
+};
+
+/* Brake force in n_max and disc speed in Vref, held over one step. */
+struct step_f32_input {
+    float load, speed;
+};
+
+struct step_f32 {
+    float x, v; /* displacement and velocity of the pad along the disc */
+    float disc; /* disc speed held over the present step */
+    int8_t mode; /* enum plant_mode */
+    struct normal_f32 normal;
+};
+
+/* Coefficients of a set whose scale has been derived. [MAIN] */
+void step_f32_configure(struct step_f32_coeffs *coeffs, const struct params *params, const struct scale *scale);
+
+/* Initial state of the set under the first input. [ANY] */
+void step_f32_reset(struct step_f32 *state, const struct step_f32_coeffs *coeffs, const struct params *params,
+                    const struct scale *scale, struct step_f32_input first);
+
+/* Advances by one step h and reports it. Cost: one RK4 step, and at most 1 + 2 (PLANT_EVENTS_MAX + PLANT_CONTACTS_MAX)
+ * where regimes switch. [ISR] */
+void step_f32_advance(struct step_f32 *state, const struct step_f32_coeffs *coeffs, struct step_f32_input input,
+                      struct plant_output *output);
+
+/* Friction force on the pad in the unit m wn Vref: mu P sgn(vr) while slipping, what holds the pad while sticking. */
+float step_f32_friction(const struct step_f32 *state, const struct step_f32_coeffs *coeffs);
+
+/* The plant has left its domain: a state is not finite or beyond what the model means. */
+bool step_f32_is_outside(const struct step_f32 *state);
+
+#endif

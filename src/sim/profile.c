@@ -1,0 +1,91 @@
+/* Piecewise profiles, evaluated from the step's index alone. */
+#include "sim/profile.h"
+
+#include "base/fmath.h"
+
+#define STEPS_MAX 4.0e9f /* later than this is never */
+
+static float in_steps(float time_s, const struct scale *scale)
+{
+    return fmath_min(time_s / scale->step_s, STEPS_MAX);
+}
+
+static void set_times(struct profile *profile, float start_s, float end_s, const struct scale *scale)
+{
+    const float start = in_steps(start_s, scale);
+    const float length = in_steps(end_s - start_s, scale);
+
+    profile->start = (uint32_t)(profile->kind == PROFILE_STEP ? start + 0.5f : start);
+    profile->start_fraction = start - (float)profile->start;
+    profile->per_step = length > 0.0f ? 1.0f / length : 0.0f;
+}
+
+void profile_load(struct profile *profile, const struct params *params, const struct scale *scale)
+{
+    profile->kind = (enum profile_kind)(int)params->load_profile;
+    profile->from = params->load_n / scale->load_n;
+    profile->to = params->load_end_n / scale->load_n;
+    set_times(profile, params->load_start_s, params->load_end_s, scale);
+    if (profile->kind == PROFILE_SINE) {
+        const float turns = params->load_frequency_hz * scale->step_s;
+        const uint32_t whole = (uint32_t)turns;
+        const float scaled = (turns - (float)whole) * 4294967296.0f; /* in 2^-32 turns, exact but for its own bits */
+        const uint32_t high = (uint32_t)scaled;
+
+        profile->turns_per_step = ((uint64_t)high << 32) | (uint32_t)((scaled - (float)high) * 4294967296.0f);
+    }
+}
+
+void profile_speed(struct profile *profile, const struct params *params, const struct scale *scale)
+{
+    profile->kind = (enum profile_kind)(int)params->speed_profile;
+    profile->from = params->speed_m_per_s / scale->speed_m_per_s;
+    profile->to = params->speed_end_m_per_s / scale->speed_m_per_s;
+    set_times(profile, params->speed_start_s, params->speed_end_s, scale);
+}
+
+static float ramp_value(const struct profile *profile, uint64_t step)
+{
+    const uint64_t passed = step - profile->start;
+    const float position = ((float)(uint32_t)passed + (0.5f - profile->start_fraction)) * profile->per_step;
+
+    if (passed > (uint64_t)STEPS_MAX || profile->per_step == 0.0f || position >= 1.0f) {
+        return profile->to;
+    }
+    return position > 0.0f ? profile->from + (profile->to - profile->from) * position : profile->from;
+}
+
+float profile_value(const struct profile *profile, uint64_t step)
+{
+    if (profile->kind == PROFILE_CONSTANT || (step < profile->start && profile->kind != PROFILE_SINE)) {
+        return profile->from;
+    }
+    switch (profile->kind) {
+    case PROFILE_RAMP:
+        return ramp_value(profile, step);
+    case PROFILE_SINE: {
+        const uint64_t turns = step * profile->turns_per_step + (profile->turns_per_step >> 1);
+
+        return step < profile->start ? profile->from
+                                     : profile->from + profile->to * fmath_sine_turns((uint32_t)(turns >> 32));
+    }
+    case PROFILE_CONSTANT:
+    case PROFILE_STEP:
+    default:
+        return profile->to;
+    }
+}
+
+bool profile_is_moving(const struct profile *profile, uint64_t step)
+{
+    switch (profile->kind) {
+    case PROFILE_STEP:
+        return step <= profile->start;
+    case PROFILE_RAMP:
+        return step <= profile->start || ramp_value(profile, step) != profile->to;
+    case PROFILE_CONSTANT:
+    case PROFILE_SINE:
+    default:
+        return false;
+    }
+}

@@ -1,0 +1,33 @@
+/* Brake force and disc speed over time: the acting process. Times are in model steps since reset, values in the model's
+ * units; a value is that of the middle of its step, t = (i + 1/2) h, and is held over it. */
+#ifndef SIM_PROFILE_H
+#define SIM_PROFILE_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "model/params.h"
+#include "model/scale.h"
+
+enum profile_kind { PROFILE_CONSTANT, PROFILE_STEP, PROFILE_RAMP, PROFILE_SINE };
+
+struct profile {
+    enum profile_kind kind;
+    float from, to;          /* sine: mean and amplitude */
+    uint32_t start;          /* whole steps before t1; the step's instant is rounded to the nearest */
+    float start_fraction;    /* rest of t1, 0 to 1 step */
+    float per_step;          /* ramp: 1/(t2 - t1) in steps */
+    uint64_t turns_per_step; /* sine: fraction of a turn in 2^-64 */
+};
+
+/* Profiles of a checked set. [MAIN] */
+void profile_load(struct profile *profile, const struct params *params, const struct scale *scale);
+void profile_speed(struct profile *profile, const struct params *params, const struct scale *scale);
+
+/* Value held over the given step. Same bits everywhere. [ISR, pure] */
+float profile_value(const struct profile *profile, uint64_t step);
+
+/* Does the value still move at this step or later, other than by a sine? [ANY] */
+bool profile_is_moving(const struct profile *profile, uint64_t step);
+
+#endif
