@@ -1,0 +1,191 @@
+#!/usr/bin/env python3
+"""The host tool against a fake firmware: what it passes, what it must not pass, and how it says what went wrong."""
+import csv
+import json
+import os
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+
+HERE = os.path.dirname(os.path.abspath(__file__))
+TOOL = os.environ.get("TOOL", "build/tools/squeal-tool")
+FAKE = [sys.executable, os.path.join(HERE, "fake_firmware.py")]
+LIMIT_S = 60
+
+COLUMNS = ("case,m,c,v0,mus,alpha,ke,kt,k,cn,ntype,N0,N1,t1,t2,contact,mumin,x0,xd0,y0,yd0,x_20,v_20,xmax_20,xmin_20,"
+           "vmax_20,vmin_20,stick_20,x_100,v_100,ntrans,nwin,xpp,stick,slipminus,f_up,slip_floquet_rate,t_v10,class")
+ROWS = """\
+sticks,0.3,0.01,1,0.3,-0.002,1,1,1,0,0,2,0,0,0,0,-1e+30,0,0,0,0,-0.34,-0.06,0.95,-0.56,1.2,-1.6,0.11,-0.3,0.1,300,40,1.23,0.118,0,0.29,-0.01,nan,stickslip-p1
+steps,0.3,0.01,1,0.3,-0.002,1,1,1,0,1,1.5,5,41.3,0,2,-1e+30,0,0,0,0,0.23,-2.6,1.7,-1.2,2.1,-3.3,0.16,0.23,-2.6,300,40,2.07,0.43,0.07,0.29,-0.03,nan,stickslip-p1
+brake,0.3,120,0.1,0.42,-0.06,1e8,4e7,7.5e6,219,2,0,1500,0,0.05,0,0.36,0,0,0,0,1.8e-06,0.0002,1.8e-06,0,0.0008,-0.0003,0,9e-06,0.0002,300,40,0,0,0,0,-50,nan,rest
+sine,0.3,0.01,1,0.3,-0.002,1,1,1,0,3,2.5,0.4,0,0.174,1,-1e+30,0,0,0,0,-0.57,-0.66,1.2,-0.8,1.8,-2.1,0.15,-0.57,-0.66,300,40,2.01,0.15,0.12,0.29,-0.008,nan,locked-other
+edge,0.3,0.01,1,0.3,-0.002,1,1,1,0,0,1,0,0,0,0,-1e+30,0,0,0,0,-0.16,-0.15,0.57,-0.28,0.9,-0.8,0,-0.15,-0.01,300,40,0.6,0,0,0.29,-0.0001,nan,beating
+leaves,0.3,0.01,1,0.3,-0.1,1,1,1,0,0,1,0,0,0,0,-1e+30,3.5,0,0,0,14433,-138366,55687,-42753,130530,-138366,0,nan,nan,300,40,nan,nan,nan,nan,0.15,1.7476,diverging
+still,0.3,0.01,0,0.3,-0.002,1,1,1,0,0,2,0,0,0,0,-1e+30,0,0,0,0,0,0,0,0,0,0,1,0,0,300,40,0,1,0,0,-0.01,nan,rest
+"""
+
+
+class Tap:
+    def __init__(self):
+        self.count = 0
+        self.failed = 0
+
+    def ok(self, is_good, name, run=None):
+        self.count += 1
+        self.failed += not is_good
+        print("%sok %d - %s" % ("" if is_good else "not ", self.count, name), flush=True)
+        if not is_good and run is not None:
+            for line in ("exit %s" % run.returncode, *run.stdout.splitlines(), *run.stderr.splitlines()):
+                print("# " + line)
+
+
+def tool(*arguments):
+    return subprocess.run([TOOL, *arguments], stdout=subprocess.PIPE, stderr=subprocess.PIPE, stdin=subprocess.DEVNULL,
+                          universal_newlines=True, timeout=LIMIT_S)
+
+
+def write(path, text):
+    with open(path, "w", newline="") as file:
+        file.write(text)
+    return path
+
+
+def is_running(pid):
+    try:
+        os.kill(pid, 0)
+    except ProcessLookupError:
+        return False
+    return True
+
+
+def golden_tests(tap, folder):
+    cases = write(folder + "/cases.csv", COLUMNS + "\n" + ROWS)
+    out = folder + "/out.csv"
+
+    def golden(*fake, more=("--asymptotic",), table=cases, known=cases):
+        return tool("golden", "--cases", table, "--out", out, "--limit", "3", *more, "--", *FAKE, "--cases", known, *fake)
+
+    run = golden()
+    tap.ok(run.returncode == 0 and run.stdout.endswith("7 passed, 0 failed\n"), "equal answers pass", run)
+    with open(out, newline="") as file:
+        rows = list(csv.DictReader(file))
+    wanted = [line.split(",")[0] for line in ROWS.splitlines()]
+    tap.ok([row["case"] for row in rows] == wanted, "the rows come out in the order of the table")
+    tap.ok(rows[0]["xpp"] == "1.23" and rows[0]["steps"] == str(340 * 64), "a row holds the answers as received")
+    tap.ok(all(rows[5][name] == "nan" for name in ("x_20", "stick_20", "x_100", "xpp", "f_up")) and
+           (rows[5]["verdict"], rows[5]["class"], rows[5]["t_v10"]) == ("squeal", "diverging", "1.7476"),
+           "a diverging row has a verdict and no measurements")
+
+    run = golden(more=())
+    tap.ok(run.returncode == 0 and "xpp  " not in run.stdout, "without --asymptotic the attractor is not compared", run)
+    with open(out, newline="") as file:
+        tap.ok(all(row["xpp"] == "nan" for row in csv.DictReader(file)), "and its columns are nan")
+
+    swapped = write(folder + "/swapped.csv", "\r\n".join(
+        ",".join(reversed(line.split(","))) for line in (COLUMNS + "\n" + ROWS).splitlines()) + "\r\n")
+    run = golden(table=swapped)
+    tap.ok(run.returncode == 0 and "7 passed" in run.stdout, "columns in any order, lines ended by CR LF", run)
+
+    # Each is beyond its tolerance by a little; its neighbour is within.
+    for fields, bad in (("x=1.004", "sticks: x_20"), ("xmax=1.0011", "sticks: xmax_20"), ("xmin=1.002", "sticks: xmin_20"),
+                        ("stick=1.06", "sticks: stick_20"), ("xpp=1.003", "sticks: xpp"), ("f_up=1.0002", "sticks: f_up"),
+                        ("t_v10=1.02", "leaves: t_v10")):
+        run = golden("--skew", fields)
+        tap.ok(run.returncode == 1 and bad in run.stdout, "too large an error of " + bad, run)
+    for fields in ("xmax=1.0009", "stick=1.004", "xpp=1.001", "f_up=1.00005", "t_v10=1.005"):
+        run = golden("--skew", fields)
+        tap.ok(run.returncode == 0, "an error within the tolerance: " + fields, run)
+    run = golden("--skew", "xmax=1.0029")
+    tap.ok("brake: xmax_20" not in run.stdout and "sticks: xmax_20" in run.stdout, "a friction floor has its own tolerance", run)
+    run = golden("--skew", "xmax=1.0029", more=("--spp", "128"))
+    tap.ok("brake: xmax_20" in run.stdout, "but not at 128 steps a period", run)
+    run = golden("--skew", "xpp=1.015")
+    tap.ok("sine: xpp" not in run.stdout and "edge: xpp" not in run.stdout and "sticks: xpp" in run.stdout,
+           "an aperiodic or marginal size is compared less strictly", run)
+
+    run = golden("--say", "propensity=quiet")
+    tap.ok(run.returncode == 1 and "sticks: verdict is quiet, expected squeal" in run.stdout and
+           "edge: verdict" not in run.stdout and "brake: verdict" not in run.stdout, "loud cases must be squeal", run)
+    run = golden("--say", "propensity=squeal")
+    tap.ok(run.returncode == 1 and "brake: verdict is squeal" in run.stdout and "edge" not in run.stdout,
+           "quiet cases must not be squeal", run)
+    run = golden("--say", "propensity=unknown")
+    tap.ok("brake: verdict is unknown" in run.stdout and "sticks: verdict is unknown" in run.stdout, "unknown fails", run)
+    run = golden("--say", "propensity=watch")
+    tap.ok("brake: verdict is watch" in run.stdout, "more than a tenth of the quiet cases as watch fails", run)
+    run = golden("--say", "predicted=quiet")
+    tap.ok("sticks: predicted" in run.stdout and "steps: predicted" not in run.stdout and "sine: predicted" not in run.stdout,
+           "a wrong prediction fails where the load settles", run)
+    run = golden("--say", "saturations=2")
+    tap.ok("sticks: saturations" in run.stdout and "leaves: saturations" not in run.stdout, "saturation of a bounded case", run)
+    run = golden("--say", "class=diverging")
+    tap.ok(run.returncode == 0, "the class of bounded cases is not judged", run)
+    other = write(folder + "/other.csv", COLUMNS + "\n" + ROWS.replace("1.7476,diverging", "nan,stickslip-p1"))
+    run = golden(known=other)
+    tap.ok("leaves: x_20 is 14433, expected nan" in run.stdout, "measurements after the divergence fail", run)
+
+    run = golden("--refuse", "set load ramp")
+    tap.ok(run.returncode == 1 and "brake: error not-served" in run.stderr and "6 passed, 1 failed" in run.stdout,
+           "a refused row is failed with its reason, the others go on", run)
+    with open(out, newline="") as file:
+        rows = list(csv.DictReader(file))
+    tap.ok(rows[2]["class"] == "refused" and rows[2]["x_20"] == "nan", "and is written as such")
+    run = golden("--die", "set load ramp")
+    tap.ok(run.returncode == 1 and "ended with exit code 3" in run.stderr and "the kernel image is gone" in run.stderr and
+           "6 passed, 1 failed" in run.stdout, "a firmware that dies at one case costs that case", run)
+    run = golden("--die", "echo")
+    tap.ok(run.returncode == 1 and "0 passed, 7 failed" in run.stdout, "a firmware that dies at once", run)
+    run = golden("--mute", "measure", more=("--limit", "1"))
+    tap.ok(run.returncode == 1 and "was silent for 1 s after 'measure 20'" in run.stderr, "a silent firmware", run)
+    run = golden("--flood")
+    tap.ok(run.returncode == 0, "a firmware that talks while it is talked to", run)
+    run = tool("golden", "--cases", cases, "--out", out, "--", "no-such-program-at-all")
+    tap.ok(run.returncode == 1 and "no-such-program-at-all: command not found" in run.stderr, "a missing command", run)
+
+    run = tool("golden", "--cases", cases, "--out", "/dev/full", "--", *FAKE, "--cases", cases)
+    tap.ok(run.returncode == 1 and "/dev/full: No space left on device" in run.stderr, "a full disk", run)
+    run = tool("golden", "--cases", write(folder + "/gap.csv", COLUMNS + "\n" + ROWS + "short,1,2\n"), "--out", out,
+               "--", *FAKE)
+    tap.ok(run.returncode == 1 and "gap.csv:9: 3 cells where the header has 39" in run.stderr, "a ragged table", run)
+    run = golden(table=write(folder + "/hole.csv", COLUMNS + "\n" + ROWS.replace("sticks,0.3", "sticks,")))
+    tap.ok(run.returncode == 1 and "sticks: no number in column m" in run.stderr, "an empty cell", run)
+    run = tool("golden", "--cases", folder + "/none.csv", "--out", out, "--", *FAKE)
+    tap.ok(run.returncode == 1 and "none.csv: No such file" in run.stderr, "a missing table", run)
+    for arguments in ((), ("sing",), ("golden", "--", "x"), ("golden", "--cases", cases, "--out", out),
+                      ("golden", "--cases", cases, "--out", out, "--jobs", "0", "--", "x"),
+                      ("golden", "--wrong", "--", "x")):
+        run = tool(*arguments)
+        tap.ok(run.returncode == 2 and len(run.stderr.splitlines()) == 1, "usage: " + " ".join(arguments[:1] + arguments[3:]), run)
+    run = tool("--help")
+    tap.ok(run.returncode == 0 and "examples:" in run.stdout, "help", run)
+
+
+def signal_tests(tap, folder):
+    cases = write(folder + "/cases.csv", COLUMNS + "\n" + ROWS)
+    for number in (signal.SIGINT, signal.SIGTERM):
+        pid_file = folder + "/pid%d" % number
+        child = subprocess.Popen([TOOL, "golden", "--cases", cases, "--out", folder + "/out.csv", "--jobs", "1", "--",
+                                  *FAKE, "--mute", "measure", "--pid-file", pid_file], stderr=subprocess.DEVNULL)
+        for _ in range(100):
+            if os.path.exists(pid_file) and os.path.getsize(pid_file) > 0:
+                break
+            time.sleep(0.05)
+        with open(pid_file) as file:
+            pid = int(file.read())
+        child.send_signal(number)
+        code = child.wait(LIMIT_S)
+        tap.ok(code == -number and not is_running(pid), "signal %d ends the firmware too" % number)
+
+
+def main():
+    tap = Tap()
+    with tempfile.TemporaryDirectory() as folder:
+        golden_tests(tap, folder)
+        signal_tests(tap, folder)
+    print("1..%d" % tap.count)
+    sys.exit(tap.failed != 0)
+
+
+main()
