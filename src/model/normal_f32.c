@@ -62,7 +62,7 @@ void normal_f32_reset(struct normal_f32 *normal, const struct normal_f32_coeffs 
     normal->sine = w;
     normal->phase = 0u;
     normal->is_lifted = coeffs->contact == CONTACT_LIFT && (y < 0.0f || (y == 0.0f && w < 0.0f));
-    normal->is_unloading_free = y == 0.0f && w == 0.0f && n >= 0.0f;
+    normal->is_steady_from_rest = y == 0.0f && w == 0.0f && n >= 0.0f;
 }
 
 void normal_f32_set_load(struct normal_f32 *normal, const struct normal_f32_coeffs *coeffs, float n)
@@ -70,7 +70,7 @@ void normal_f32_set_load(struct normal_f32 *normal, const struct normal_f32_coef
     const float change = n - normal->n;
 
     normal->n = n;
-    normal->is_unloading_free = false;
+    normal->is_steady_from_rest = false;
     if (coeffs->has_phase) {
         normal->cosine -= change * sine_cosine_f32(normal->phase);
         normal->sine -= change * sine_f32(normal->phase);

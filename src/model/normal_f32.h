@@ -31,7 +31,7 @@ struct normal_f32 {
     float cosine, sine; /* y = n + cosine cos(phase) + sine sin(phase), where has_phase */
     uint32_t phase;
     bool is_lifted;     /* spring off: contact lift and y < 0 */
-    bool is_unloading_free; /* from rest under a force that never changed: y >= 0 but for rounding */
+    bool is_steady_from_rest; /* from rest under a force that never changed: y >= 0 but for rounding */
 };
 
 /* The normal force at the four stages of RK4 over one piece of a step, and the state at its end. */
@@ -70,7 +70,7 @@ static inline float normal_f32_force(const struct normal_f32 *normal, const stru
     if (normal->is_lifted) {
         return 0.0f;
     }
-    return y < 0.0f && (coeffs->contact != CONTACT_BILATERAL || normal->is_unloading_free) ? 0.0f : y;
+    return y < 0.0f && (coeffs->contact != CONTACT_BILATERAL || normal->is_steady_from_rest) ? 0.0f : y;
 }
 
 #endif

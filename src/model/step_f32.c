@@ -1,7 +1,9 @@
 /* One step of the tangential equation, in pieces between switches of regime. */
 #include "model/step_f32.h"
 
+#include "base/compiler.h"
 #include "base/fmath.h"
+#include "model/hermite_f32.h"
 
 #define DISPLACEMENT_MAX 4096.0f /* beyond it the plant has left its domain; in the model's units */
 #define NORMAL_MAX 64.0f
@@ -227,7 +229,8 @@ static float cut_at_contact(const struct step_f32 *s, const struct step_f32_coef
     float part;
 
     *changes = false;
-    if (c->normal.contact != CONTACT_LIFT || sign * piece->y >= 0.0f || progress->contacts == PLANT_CONTACTS_MAX) {
+    if (c->normal.contact != CONTACT_LIFT || normal->is_steady_from_rest || sign * piece->y >= 0.0f ||
+        progress->contacts == PLANT_CONTACTS_MAX) {
         return duration;
     }
     {
@@ -245,14 +248,13 @@ static float cut_at_contact(const struct step_f32 *s, const struct step_f32_coef
     return part;
 }
 
-static void change_contact(struct step_f32 *s, struct progress *progress)
+static void change_contact(struct step_f32 *s, const struct step_f32_coeffs *c, struct progress *progress)
 {
     progress->contacts++;
     s->normal.y = 0.0f;
     s->normal.is_lifted = s->normal.w < 0.0f;
     if (s->normal.is_lifted && s->mode == PLANT_STICK) {
-        /* Nothing holds the pad any more; its spring decides where it goes. */
-        s->mode = s->x * s->disc >= 0.0f ? PLANT_SLIP_PLUS : PLANT_SLIP_MINUS;
+        s->mode = regime_at_rest(s, c, 0.0f);
     }
 }
 
@@ -276,7 +278,7 @@ static void event_step(struct step_f32 *s, const struct step_f32_coeffs *c, stru
             }
         }
         if (contact_changes && progress->events == events) {
-            change_contact(s, progress);
+            change_contact(s, c, progress);
         }
         progress->is_lifted = progress->is_lifted || s->normal.y < 0.0f;
     }
@@ -309,7 +311,7 @@ static void naive_step(struct step_f32 *s, const struct step_f32_coeffs *c, stru
     s->mode = (int8_t)((s->disc > s->v) - (s->disc < s->v));
     advance(s, progress, &piece, h);
     progress->is_lifted = s->normal.y < 0.0f;
-    if (c->normal.contact == CONTACT_LIFT) {
+    if (c->normal.contact == CONTACT_LIFT && !s->normal.is_steady_from_rest) {
         s->normal.is_lifted = s->normal.y < 0.0f;
     }
 }
