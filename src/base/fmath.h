@@ -15,7 +15,8 @@ float fmath_sqrt(float value);
  * the bit: sine(-t) = -sine(t), sine(half turn - t) = sine(t). */
 float fmath_sine_turns(uint32_t turns);
 
-/* Base-2 logarithm of a positive finite value, error below 1e-6 absolute. */
+/* Base-2 logarithm of a positive finite value: error below 2e-7 before the result is rounded to float; a power of two
+ * gives its exponent exactly. */
 float fmath_log2(float value);
 
 /* Nearest integer, ties away from zero; the caller keeps |value| below 2^31. */
