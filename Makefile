@@ -1,0 +1,151 @@
+# make help lists the targets. BOARD= names a folder of boards/, V=1 shows the commands.
+# Everything goes to build/: build/<board>/ for firmware, build/tools/ and build/unit/ for programs of this machine.
+
+BOARD  ?= mps2-an386
+BOARDS := $(notdir $(patsubst %/board.mk,%,$(wildcard boards/*/board.mk)))
+ifeq ($(filter $(BOARD),$(BOARDS)),)
+$(error there is no board '$(BOARD)'; the boards are: $(BOARDS))
+endif
+.DEFAULT_GOAL := all
+
+Q := $(if $(V),,@)
+say = $(if $(V),,@echo "  $(1) $(2)")
+
+# --- How C is compiled: the same language, arithmetic and warnings everywhere ---------------------------------------
+CFLAGS_ALL := -std=c99 -O2 -g -ffp-contract=off -ffile-prefix-map=$(CURDIR)=. -Isrc -MMD -MP \
+              -Wall -Wextra -Wpedantic -Wconversion -Wshadow -Wundef -Wdouble-promotion -Wstrict-prototypes \
+              -Wmissing-prototypes -Wcast-align -Wswitch-enum -Wvla -Werror
+CFLAGS_HOSTED := $(CFLAGS_ALL) -D_POSIX_C_SOURCE=200809L
+SANITIZE      := -fsanitize=address,undefined -fno-sanitize-recover=all
+
+include boards/$(BOARD)/board.mk
+CFLAGS_BOARD := $(CFLAGS_ALL) -Ihal -Iboards/$(BOARD) $(BOARD_CFLAGS)
+MAKEFILES_READ := $(MAKEFILE_LIST)
+
+# --- What is compiled -----------------------------------------------------------------------------------------------
+# src/base/mem.c belongs to boards without a C library: their BOARD_SOURCES name it.
+SOURCES       := $(filter-out src/base/mem.c,$(wildcard $(addprefix src/,$(addsuffix /*.c,base model analysis sim protocol))))
+SOURCES_BOARD := $(sort $(BOARD_SOURCES)) boards/$(BOARD)/board.c
+SOURCES_IMAGE := $(SOURCES) $(wildcard src/app/*.c) $(SOURCES_BOARD)
+SOURCES_TOOL  := $(filter src/base/% src/model/% src/analysis/%,$(SOURCES)) $(wildcard tools/squeal/*.c)
+UNIT_TESTS    := $(filter-out tests/unit/platform_host.c,$(wildcard tests/unit/*.c))
+
+OUT_BOARD  := build/$(BOARD)
+IMAGE      := $(OUT_BOARD)/squeal$(BOARD_SUFFIX)
+UNIT_IMAGE := $(OUT_BOARD)/unit$(BOARD_SUFFIX)
+UNIT_HOST  := build/unit/host
+TOOL       := build/tools/squeal-tool
+
+OBJECTS_IMAGE := $(SOURCES_IMAGE:%.c=$(OUT_BOARD)/%.o)
+OBJECTS_UNIT  := $(patsubst %.c,$(OUT_BOARD)/%.o,$(SOURCES) $(SOURCES_BOARD) $(UNIT_TESTS) tests/target/platform.c)
+OBJECTS_HOST  := $(patsubst %.c,build/unit/%.o,$(SOURCES) $(UNIT_TESTS) tests/unit/platform_host.c)
+OBJECTS_TOOL  := $(SOURCES_TOOL:%.c=build/tools/%.o)
+OBJECTS       := $(sort $(OBJECTS_IMAGE) $(OBJECTS_UNIT) $(OBJECTS_HOST) $(OBJECTS_TOOL))
+
+# The commit's name is kept in a file that changes only when the name does.
+BUILD_ID := $(or $(shell GIT_OPTIONAL_LOCKS=0 git describe --always --dirty 2>/dev/null),unknown)
+ifneq ($(BUILD_ID),$(shell cat build/build_id 2>/dev/null))
+$(shell mkdir -p build && echo '$(BUILD_ID)' >build/build_id)
+endif
+
+# --- Rules ----------------------------------------------------------------------------------------------------------
+.PHONY: all run monitor test golden debug check size clean help setup host-image
+.DELETE_ON_ERROR:
+
+all: $(IMAGE) ## build the firmware for BOARD (default mps2-an386)
+
+$(OUT_BOARD)/%.o: %.c
+	$(call say,CC,$@)
+	$(Q)mkdir -p $(@D)
+	$(Q)$(BOARD_CC) $(CFLAGS_BOARD) $(CFLAGS_EXTRA) -c $< -o $@
+
+build/unit/%.o: %.c
+	$(call say,CC,$@)
+	$(Q)mkdir -p $(@D)
+	$(Q)$(CC) $(CFLAGS_HOSTED) $(SANITIZE) -c $< -o $@
+
+build/tools/%.o: %.c
+	$(call say,CC,$@)
+	$(Q)mkdir -p $(@D)
+	$(Q)$(CC) $(CFLAGS_HOSTED) -c $< -o $@
+
+# The compiler must not turn the body of memcpy into a call of memcpy.
+$(OUT_BOARD)/src/base/mem.o: CFLAGS_EXTRA := -fno-tree-loop-distribute-patterns
+$(OUT_BOARD)/src/app/version.o: CFLAGS_EXTRA := -DBUILD_ID='"$(BUILD_ID)"'
+$(OUT_BOARD)/src/app/version.o: build/build_id
+
+$(OBJECTS): $(MAKEFILES_READ) | setup
+-include $(OBJECTS:.o=.d)
+
+$(IMAGE): $(OBJECTS_IMAGE)
+$(UNIT_IMAGE): $(OBJECTS_UNIT)
+$(IMAGE) $(UNIT_IMAGE): $(wildcard linker/*.ld)
+	$(call say,LD,$@)
+	$(Q)$(BOARD_CC) $(CFLAGS_BOARD) $(BOARD_LDFLAGS) $(filter %.o,$^) -o $@ $(BOARD_LIBS)
+
+$(UNIT_HOST): $(OBJECTS_HOST)
+	$(call say,LD,$@)
+	$(Q)$(CC) $(SANITIZE) $^ -o $@
+
+$(TOOL): $(OBJECTS_TOOL)
+	$(call say,LD,$@)
+	$(Q)$(CC) $^ -o $@ -lm
+
+# --- Use ------------------------------------------------------------------------------------------------------------
+COMMAND    := $(strip $(BOARD_RUN) $(IMAGE))
+CASES      ?= tests/golden/paper.csv
+OUT        ?= build/golden
+ARITH      ?= f32
+SPP        ?= 64
+NORMAL     ?= exact
+ASYMPTOTIC ?=
+
+run: $(IMAGE) $(TOOL) ## run the demonstration, record and pictures in build/run
+	$(Q)$(TOOL) run --board $(BOARD) --out build/run -- $(COMMAND)
+
+monitor: $(IMAGE) ## talk to the firmware in this terminal
+	@echo "Ctrl-C leaves. The firmware echoes; type help and Enter."
+	@saved=$$(stty -g 2>/dev/null) && trap "stty $$saved" EXIT INT TERM && stty -icanon -echo; \
+	SQUEAL_REALTIME=1 $(COMMAND)
+
+golden: $(IMAGE) $(TOOL) ## run the cases of CASES= into OUT= (ARITH= SPP= NORMAL= ASYMPTOTIC=1)
+	$(Q)$(TOOL) golden --cases $(CASES) --out $(OUT) --spp $(SPP) --normal $(NORMAL) --arith $(ARITH) \
+	    $(if $(ASYMPTOTIC),--asymptotic) --jobs 2 -- $(COMMAND)
+
+test: $(IMAGE) $(UNIT_IMAGE) $(UNIT_HOST) $(TOOL) host-image ## run everything that a change must pass
+	$(Q)BOARD=$(BOARD) BOARD_RUN="$(BOARD_RUN)" IMAGE=$(IMAGE) UNIT_IMAGE=$(UNIT_IMAGE) UNIT_HOST=$(UNIT_HOST) \
+	    HOST_IMAGE=build/host/squeal TOOL=$(TOOL) tools/tap_summary $(wildcard tests/*.t tests/system/*.t)
+
+host-image: $(if $(filter host,$(BOARD)),$(IMAGE))
+ifneq ($(BOARD),host)
+	$(Q)$(MAKE) --no-print-directory BOARD=host all
+endif
+
+debug: $(IMAGE) ## halt the emulated board at reset and attach gdb; the console goes to build/<board>/console.txt
+	$(if $(BOARD_RUN),,$(error BOARD=host needs no emulator: gdb $(IMAGE)))
+	$(Q)tools/setup gdb-multiarch
+	$(Q)rm -f $(OUT_BOARD)/gdb.sock; \
+	$(COMMAND) -S -chardev socket,path=$(OUT_BOARD)/gdb.sock,server=on,wait=off,id=gdb -gdb chardev:gdb \
+	    </dev/null >$(OUT_BOARD)/console.txt & \
+	trap "kill $$! 2>/dev/null; rm -f $(OUT_BOARD)/gdb.sock" EXIT; trap '' INT; \
+	until [ -S $(OUT_BOARD)/gdb.sock ] || ! kill -0 $$! 2>/dev/null; do sleep 0.1; done; \
+	gdb-multiarch -q -ex 'target remote $(OUT_BOARD)/gdb.sock' -ex 'break main' $(GDB_ARGS) $(IMAGE)
+
+check: $(IMAGE) ## check layers, forbidden symbols, documents and the formatting
+	$(Q)tools/check_layers
+	$(Q)tools/check_symbols $(IMAGE)
+	$(Q)tools/check_docs
+	$(Q)clang-format --dry-run -Werror $$(git ls-files '*.c' '*.h')
+
+size: $(IMAGE) ## print what the firmware takes: text and data in flash, data and bss in RAM, bytes
+	$(Q)$(BOARD_SIZE) $(IMAGE)
+
+clean: ## remove build/
+	$(Q)rm -rf build
+
+setup: ## find the tools that are missing and install them (SETUP=no only names them)
+	@tools/setup
+
+help: ## print this list
+	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "  make %-9s %s\n", $$1, $$2 }' Makefile
+	@echo "  BOARD= one of: $(BOARDS)"

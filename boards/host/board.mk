@@ -1,0 +1,9 @@
+# The compiler of this machine, its C library, its memory functions.
+BOARD_CC      := $(CC)
+BOARD_CFLAGS  := -D_POSIX_C_SOURCE=200809L
+BOARD_LDFLAGS :=
+BOARD_LIBS    :=
+BOARD_SOURCES :=
+BOARD_RUN     :=
+BOARD_SIZE    := size
+BOARD_SUFFIX  :=

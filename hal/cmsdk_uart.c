@@ -1,0 +1,164 @@
+/* Registers: Arm Cortex-M System Design Kit (DDI 0479), section 4.3 "APB UART". */
+#include "cmsdk_uart.h"
+
+#include "base/ring.h"
+#include "cortex_m/nvic.h"
+
+enum {
+    STATE_TX_FULL = 1 << 0,
+    STATE_RX_FULL = 1 << 1,
+    STATE_RX_OVERRUN = 1 << 3, /* write 1 to clear */
+    CTRL_LINE_ON = 3 << 0,     /* transmitter and receiver */
+    CTRL_TX_INTERRUPT = 1 << 2,
+    CTRL_RX_INTERRUPT = 1 << 3,
+    INTERRUPT_TX = 1 << 0, /* write 1 to clear */
+    INTERRUPT_RX = 1 << 1,
+    RX_CAPACITY = 4096
+};
+
+struct cmsdk_uart_block {
+    volatile uint32_t data;
+    volatile uint32_t state;
+    volatile uint32_t ctrl;
+    volatile uint32_t interrupt;
+    volatile uint32_t bauddiv;
+};
+
+struct port {
+    struct cmsdk_uart_block *block;
+    unsigned rx_irq;
+    uint32_t baud;
+    struct ring received;
+    uint8_t bytes[RX_CAPACITY];
+    volatile uint32_t lost; /* written by the interrupt alone */
+    volatile bool is_held;  /* set by the interrupt as it masks itself, cleared by main before it unmasks */
+};
+
+static struct port ports[HAL_UART_COUNT];
+
+static struct cmsdk_uart_block *block_at(uintptr_t base)
+{
+    return (struct cmsdk_uart_block *)base;
+}
+
+static void line_on(struct cmsdk_uart_block *block, uint32_t clock_hz, uint32_t baud)
+{
+    block->bauddiv = (clock_hz + baud / 2u) / baud;
+    block->ctrl = CTRL_LINE_ON | CTRL_RX_INTERRUPT;
+}
+
+void cmsdk_uart_open(enum hal_uart port, const struct cmsdk_uart_wiring *wiring)
+{
+    struct port *const own = &ports[port];
+
+    own->block = block_at(wiring->base);
+    own->rx_irq = wiring->rx_irq;
+    own->baud = wiring->baud;
+    ring_init(&own->received, own->bytes, 1u, RX_CAPACITY);
+
+    line_on(own->block, wiring->clock_hz, wiring->baud);
+    nvic_set_priority(wiring->rx_irq, NVIC_PRIORITY_RECEIVE);
+    nvic_set_priority(wiring->tx_irq, NVIC_PRIORITY_LOW);
+    nvic_enable(wiring->rx_irq);
+    nvic_enable(wiring->tx_irq);
+}
+
+/* The UART holds one byte, so one is read an interrupt and no loop is needed. The order matters: the flag is latched
+ * anew for each byte, and cleared after the read it could take the next byte's interrupt with it. */
+void cmsdk_uart_rx_isr(enum hal_uart port)
+{
+    struct port *const own = &ports[port];
+    uint8_t byte;
+
+    own->block->interrupt = INTERRUPT_RX;
+    if ((own->block->state & STATE_RX_OVERRUN) != 0u) {
+        own->block->state = STATE_RX_OVERRUN;
+        own->lost++;
+    }
+    if ((own->block->state & STATE_RX_FULL) == 0u) {
+        return;
+    }
+    if (ring_fill(&own->received) == RX_CAPACITY) {
+        own->is_held = true;
+        nvic_disable(own->rx_irq);
+        return;
+    }
+    byte = (uint8_t)own->block->data;
+    (void)ring_push(&own->received, &byte); /* Cannot fail: there was room, and main only makes more. */
+}
+
+/* Nothing to send from here: that it wakes main is its whole purpose. */
+void cmsdk_uart_tx_isr(enum hal_uart port)
+{
+    struct cmsdk_uart_block *const block = ports[port].block;
+
+    block->ctrl = CTRL_LINE_ON | CTRL_RX_INTERRUPT;
+    block->interrupt = INTERRUPT_TX;
+}
+
+bool cmsdk_uart_is_quiet(enum hal_uart port)
+{
+    const struct port *const own = &ports[port];
+    const bool is_refused = (own->block->ctrl & CTRL_TX_INTERRUPT) != 0u;
+
+    if (ring_fill(&own->received) != 0u) {
+        return false;
+    }
+    return !is_refused || (own->block->state & STATE_TX_FULL) != 0u;
+}
+
+void cmsdk_uart_put(const struct cmsdk_uart_wiring *wiring, char byte)
+{
+    struct cmsdk_uart_block *const block = block_at(wiring->base);
+
+    if ((block->ctrl & CTRL_LINE_ON) == 0u) {
+        line_on(block, wiring->clock_hz, wiring->baud);
+    }
+    while ((block->state & STATE_TX_FULL) != 0u) {
+    }
+    block->data = (uint8_t)byte;
+    while ((block->state & STATE_TX_FULL) != 0u) {
+    }
+}
+
+uint32_t hal_uart_baud(enum hal_uart port)
+{
+    return ports[port].baud;
+}
+
+size_t hal_uart_write(enum hal_uart port, const void *data, size_t size)
+{
+    struct cmsdk_uart_block *const block = ports[port].block;
+    const uint8_t *const bytes = data;
+    size_t count = 0u;
+
+    while (count < size && (block->state & STATE_TX_FULL) == 0u) {
+        block->data = bytes[count++];
+    }
+    if (count < size) {
+        block->ctrl = CTRL_LINE_ON | CTRL_RX_INTERRUPT | CTRL_TX_INTERRUPT;
+    }
+    return count;
+}
+
+size_t hal_uart_read(enum hal_uart port, void *data, size_t size)
+{
+    struct port *const own = &ports[port];
+    uint8_t *const bytes = data;
+    size_t count = 0u;
+
+    while (count < size && ring_pop(&own->received, &bytes[count])) {
+        count++;
+    }
+    if (count > 0u && own->is_held) {
+        own->is_held = false;
+        nvic_enable(own->rx_irq);
+        nvic_pend(own->rx_irq); /* The held byte has had its interrupt already. */
+    }
+    return count;
+}
+
+uint32_t hal_uart_lost(enum hal_uart port)
+{
+    return ports[port].lost;
+}

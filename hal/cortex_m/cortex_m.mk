@@ -1,0 +1,8 @@
+# What the board.mk of every Cortex-M board includes, after BOARD_CPU, BOARD_MAP and its own BOARD_SOURCES.
+BOARD_CC       := arm-none-eabi-gcc
+BOARD_CFLAGS   := $(BOARD_CPU) -mthumb -ffreestanding -fno-math-errno -fno-common -ffunction-sections -fdata-sections
+BOARD_LDFLAGS  := -nostdlib -T $(BOARD_MAP) -Wl,--gc-sections -Wl,--fatal-warnings
+BOARD_LIBS     := -lgcc
+BOARD_SOURCES  += hal/cortex_m/startup.c hal/cortex_m/faults.c src/base/mem.c
+BOARD_SIZE     := arm-none-eabi-size
+BOARD_SUFFIX   := .elf
