@@ -70,16 +70,16 @@ class Firmware:
         sys.stdout.write(line + "\r\n")
         sys.stdout.flush()
 
-    def answer(self, name, **fields):
+    def answer(self, command, **fields):
         for change in self.options.skew or []:
             key, factor = change.split("=")
-            if key in fields and name != "status":
+            if key in fields and command != "status":
                 fields[key] = "%.9g" % (float(fields[key]) * float(factor))
         for change in self.options.say or []:
             key, text = change.split("=")
             if key in fields:
                 fields[key] = text
-        self.say(" ".join(["ok " + name] + ["%s=%s" % pair for pair in fields.items()]))
+        self.say(" ".join(["ok " + command] + ["%s=%s" % pair for pair in fields.items()]))
 
     def row(self):
         for row in self.rows:
@@ -159,7 +159,7 @@ class Firmware:
             return
         self.signals = words[1].split(",")
         self.every = int(words[words.index("every") + 1])
-        if self.every < 2:
+        if self.values["tick"] * self.values["substeps"] > 900 * self.every:
             raise Refused("error line-overload smallest=2")
         self.answer("stream", every=self.every, line_bytes=90, load="40%", smallest=2)
         self.say("#" + ",".join(self.signals))

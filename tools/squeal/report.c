@@ -1,0 +1,191 @@
+/* The record of a run as JSON. What the device says is passed on field by field; the dimensionless groups are derived
+ * by the model's own code from the parameters that the device lists. */
+#include "report.h"
+
+#include "fields.h"
+#include "model/params.h"
+#include "model/scale.h"
+
+#include <ctype.h>
+#include <math.h>
+#include <string.h>
+
+static void string_write(FILE *file, const char *text, size_t length)
+{
+    (void)fputc('"', file);
+    for (size_t i = 0; i < length; i++) {
+        const unsigned char byte = (unsigned char)text[i];
+        if (byte == '"' || byte == '\\') {
+            (void)fputc('\\', file);
+        }
+        if (byte < ' ') {
+            (void)fprintf(file, "\\u%04x", byte);
+        } else {
+            (void)fputc(byte, file);
+        }
+    }
+    (void)fputc('"', file);
+}
+
+/* A number as the device wrote it, nan as null, anything else as a string. A word of hexadecimal digits only looks like
+ * a number now and then, so what JSON would not take as one stays a string, and so does what is called a hash or a
+ * build. */
+static void value_write(FILE *file, const char *key, const char *text, size_t length)
+{
+    const size_t digits = strspn(text, "0123456789+-.eE");
+    const bool is_name = strstr(key, "hash") == key || strstr(key, "build") == key || strstr(key, "version") == key;
+    const bool starts_well = isdigit((unsigned char)text[0]) || (text[0] == '-' && isdigit((unsigned char)text[1]));
+
+    if (length == 3 && strncmp(text, "nan", 3) == 0) {
+        (void)fputs("null", file);
+    } else if (!is_name && length > 0 && digits >= length && starts_well) {
+        (void)fwrite(text, 1, length, file);
+    } else {
+        string_write(file, text, length);
+    }
+}
+
+/* The key=value fields of a line as a JSON object. */
+static void fields_write(FILE *file, const char *line)
+{
+    bool is_first = true;
+
+    (void)fputc('{', file);
+    for (const char *word = line; *word != '\0';) {
+        const size_t length = strcspn(word, " ");
+        const char *sign = memchr(word, '=', length);
+        if (sign != NULL) {
+            const size_t key_length = (size_t)(sign - word);
+            (void)fputs(is_first ? "" : ", ", file);
+            string_write(file, word, key_length);
+            (void)fputs(": ", file);
+            value_write(file, word, sign + 1, length - key_length - 1);
+            is_first = false;
+        }
+        word += length;
+        word += strspn(word, " ");
+    }
+    (void)fputc('}', file);
+}
+
+/* Reads "<symbol> = <value> <unit> ..." of list. Lengths are those of symbol and value; false if the line is no such.
+ */
+static bool parameter_cut(const char *line, size_t *symbol, const char **value, size_t *value_length)
+{
+    *symbol = strcspn(line, " \n");
+    if (strncmp(line + *symbol, " = ", 3) != 0) {
+        return false;
+    }
+    *value = line + *symbol + 3;
+    *value_length = strcspn(*value, " \n");
+    return true;
+}
+
+/* Writes the parameters as listed and collects them in params, as far as this tool knows them. */
+static void parameters_write(FILE *file, const char *lines, struct params *params)
+{
+    bool is_first = true;
+
+    params_default(params);
+    (void)fputc('{', file);
+    for (const char *line = lines; line != NULL && *line != '\0';) {
+        size_t symbol, length;
+        const char *value;
+        if (parameter_cut(line, &symbol, &value, &length)) {
+            const struct params_info *info = params_find(line, symbol);
+            float number = 0.0f;
+            (void)fputs(is_first ? "" : ", ", file);
+            string_write(file, line, symbol);
+            (void)fputs(": ", file);
+            value_write(file, "", value, length);
+            is_first = false;
+            if (info != NULL && params_parse(info, value, length, &number) == ERROR_OK) {
+                params_set(params, info, number);
+            }
+        }
+        line = strchr(line, '\n');
+        line = line == NULL ? NULL : line + 1;
+    }
+    (void)fputc('}', file);
+}
+
+static void number_write(FILE *file, const char *name, double value)
+{
+    (void)fprintf(file, isfinite(value) ? ", \"%s\": %.9g" : ", \"%s\": null", name, value);
+}
+
+static void groups_write(FILE *file, const struct params *params, bool is_known)
+{
+    struct scale scale;
+
+    /* An act that was cut short has listed nothing, and the groups of the defaults would mean nothing. */
+    if (!is_known || scale_derive(params, NULL, &scale).error != ERROR_OK) {
+        (void)fputs("null", file);
+        return;
+    }
+    (void)fprintf(file, "{\"C\": %.9g", (double)scale.damping);
+    number_write(file, "Z2", (double)scale.stiffness);
+    number_write(file, "mu", (double)scale.friction);
+    number_write(file, "eps", (double)scale.friction_slope);
+    number_write(file, "mu_floor", scale.has_floor ? (double)scale.friction_floor : (double)NAN);
+    number_write(file, "Cn", (double)scale.normal_damping);
+    number_write(file, "V0", (double)params->speed_m_per_s / (double)scale.speed_m_per_s);
+    number_write(file, "h", (double)scale.step);
+    number_write(file, "wn_rad_per_s", (double)scale.omega_rad_per_s);
+    number_write(file, "Vref_m_per_s", (double)scale.speed_m_per_s);
+    number_write(file, "load_unit_n", (double)scale.load_n);
+    (void)fputc('}', file);
+}
+
+static void act_write(FILE *file, const struct act *act)
+{
+    struct params params;
+
+    (void)fprintf(file, "    {\"act\": %d, \"title\": ", act->number);
+    string_write(file, act->title, strlen(act->title));
+    (void)fprintf(file, ", \"complete\": %s,\n     \"parameters_si\": ", act->is_done ? "true" : "false");
+    parameters_write(file, act->parameters, &params);
+    (void)fputs(",\n     \"groups\": ", file);
+    groups_write(file, &params, act->is_done);
+    (void)fputs(",\n     \"verdict\": ", file);
+    fields_write(file, act->verdict);
+    (void)fputs(",\n     \"status\": ", file);
+    fields_write(file, act->status);
+    (void)fprintf(file, ",\n     \"samples\": %zu, \"steps_a_sample\": %.0f, \"samples_missing\": %.0f", act->count,
+                  act->every, act->missing);
+    (void)fputs(", \"hash_before\": ", file);
+    value_write(file, "hash", act->first_hash, strlen(act->first_hash));
+    (void)fputc('}', file);
+}
+
+void report_write(struct story *story)
+{
+    char path[STORY_PATH_SIZE], problem[CSV_PROBLEM_MAX];
+    FILE *file = csv_create(story_path(story, path, "run.json"), problem);
+
+    if (file == NULL) {
+        story_fail(story, "%s", problem);
+        return;
+    }
+    (void)fputs("{\n  \"firmware\": ", file);
+    fields_write(file, story->id);
+    (void)fputs(",\n  \"board\": ", file);
+    string_write(file, story->board, strlen(story->board));
+    (void)fputs(",\n  \"emulator\": ", file);
+    if (story->emulator[0] == '\0') {
+        (void)fputs("null", file);
+    } else {
+        string_write(file, story->emulator, strlen(story->emulator));
+    }
+    (void)fputs(",\n  \"seed\": null,\n  \"acts\": [\n", file);
+    for (size_t i = 0; i < story->act_count; i++) {
+        act_write(file, &story->acts[i]);
+        (void)fputs(i + 1 < story->act_count ? ",\n" : "\n", file);
+    }
+    (void)fputs("  ]\n}\n", file);
+    if (!csv_close(file, path, problem)) {
+        story_fail(story, "%s", problem);
+        return;
+    }
+    story_wrote(story, path, "parameters, versions, verdicts, counters");
+}
