@@ -335,22 +335,24 @@ static uint32_t to_share(float part, float whole)
     return share >= 1.0f ? PLANT_SHARE_ONE : share > 0.0f ? (uint32_t)(share * (float)PLANT_SHARE_ONE) : 0u;
 }
 
-static void report(const struct step_f32 *s, const struct step_f32_coeffs *c, const struct progress *progress,
-                   bool is_gap_held, struct plant_output *output)
+void step_f32_report(const struct step_f32 *s, const struct step_f32_coeffs *c, struct plant_output *output)
 {
-    output->is_saturated = false;
+    *output = (struct plant_output){.mode = s->mode};
     output->x = to_q27(s->x * c->output_length, &output->is_saturated);
     output->v = to_q27(s->v, &output->is_saturated);
     output->y = to_q27(s->normal.y, &output->is_saturated);
     output->w = to_q27(s->normal.w, &output->is_saturated);
     output->disc = to_q27(s->disc, &output->is_saturated);
+}
+
+static void report_progress(const struct step_f32_coeffs *c, const struct progress *progress,
+                            struct plant_output *output)
+{
     output->stick = progress->stick > 0.0f ? to_share(progress->stick, c->normal.step) : 0u;
     output->slip_minus = progress->slip_minus > 0.0f ? to_share(progress->slip_minus, c->normal.step) : 0u;
-    output->mode = s->mode;
     output->events = (uint8_t)progress->events;
     output->is_capped = progress->is_capped;
     output->is_lifted = progress->is_lifted;
-    output->is_gap_held = is_gap_held;
 }
 
 void step_f32_configure(struct step_f32_coeffs *coeffs, const struct params *params, const struct scale *scale)
@@ -396,7 +398,9 @@ void step_f32_advance(struct step_f32 *state, const struct step_f32_coeffs *coef
         event_step(state, coeffs, &progress);
     }
     is_gap_held = normal_f32_close_step(&state->normal, &coeffs->normal);
-    report(state, coeffs, &progress, is_gap_held, output);
+    step_f32_report(state, coeffs, output);
+    report_progress(coeffs, &progress, output);
+    output->is_gap_held = is_gap_held;
 }
 
 float step_f32_friction(const struct step_f32 *state, const struct step_f32_coeffs *coeffs)

@@ -42,6 +42,9 @@ void step_f32_reset(struct step_f32 *state, const struct step_f32_coeffs *coeffs
 void step_f32_advance(struct step_f32 *state, const struct step_f32_coeffs *coeffs, struct step_f32_input input,
                       struct plant_output *output);
 
+/* The state as it stands, with nothing having happened. [ANY] */
+void step_f32_report(const struct step_f32 *state, const struct step_f32_coeffs *coeffs, struct plant_output *output);
+
 /* Friction force on the pad in the unit m wn Vref: mu P sgn(vr) while slipping, what holds the pad while sticking. */
 float step_f32_friction(const struct step_f32 *state, const struct step_f32_coeffs *coeffs);
 

@@ -1,0 +1,181 @@
+/* Closed-form prediction. Everything here is in the model's units: see model/scale.h. */
+#include "analysis/predictor.h"
+
+#include "base/fmath.h"
+#include "model/sine.h"
+
+#define RATE_MARGIN 1e-4f   /* of the growth rate: 6e-4 a period is too close to call */
+#define TOUCH_MARGIN 0.95f  /* forced motion this near to the disc's speed is worth watching */
+#define RESPONSE_MAX 64.0f  /* no finite response is trusted beyond it */
+
+/* The set at the end of its profiles. */
+struct finish {
+    float load, speed;  /* n and |v0| */
+    float friction;     /* mu at v0 */
+    float slope;        /* local slope of friction times n: eps n, 0 on the floor */
+    bool is_on_floor;
+};
+
+/* Free normal oscillation: deviation from the load's own solution. */
+struct oscillation {
+    float y, w;
+};
+
+static float hypotenuse(float a, float b)
+{
+    return fmath_sqrt(a * a + b * b);
+}
+
+static struct finish find_finish(const struct params *params, const struct scale *scale)
+{
+    const bool load_ends = (int)params->load_profile == LOAD_STEP || (int)params->load_profile == LOAD_RAMP;
+    const bool speed_ends = (int)params->speed_profile != SPEED_CONSTANT;
+    struct finish finish;
+
+    finish.load = (load_ends ? params->load_end_n : params->load_n) / scale->load_n;
+    finish.speed = fmath_abs(speed_ends ? params->speed_end_m_per_s : params->speed_m_per_s) / scale->speed_m_per_s;
+    finish.friction = scale->friction + scale->friction_slope * finish.speed;
+    finish.is_on_floor = scale->has_floor && finish.friction <= scale->friction_floor;
+    finish.friction = fmath_abs(finish.is_on_floor ? scale->friction_floor : finish.friction);
+    finish.slope = finish.is_on_floor ? 0.0f : scale->friction_slope * finish.load;
+    return finish;
+}
+
+/* A free oscillation after some time without damping. */
+static struct oscillation turned(struct oscillation start, float time_s, const struct scale *scale)
+{
+    const float turns = time_s / (scale->step_s * (float)scale->steps_per_period);
+    const float fraction = turns < 1e6f ? turns - (float)(uint32_t)turns : 0.0f;
+    const uint32_t phase = (uint32_t)(fraction * 4294967040.0f);
+    const float sine = fmath_sine_turns(phase);
+    const float cosine = fmath_sine_turns(phase + (1u << 30));
+
+    return (struct oscillation){start.y * cosine + start.w * sine, start.w * cosine - start.y * sine};
+}
+
+/* Amplitude of the free normal oscillation that the onset of the load leaves behind, in n_max/ke, before damping. */
+static float onset_amplitude(const struct params *params, const struct scale *scale)
+{
+    const float before = params->load_n / scale->load_n;
+    const float after = params->load_end_n / scale->load_n;
+    struct oscillation free = {params->y_initial_m / scale->normal_m - before,
+                               params->yd_initial_m_per_s / (scale->normal_m * scale->omega_rad_per_s)};
+
+    if ((int)params->load_profile == LOAD_STEP) {
+        free = turned(free, params->load_start_s, scale);
+        free.y += before - after;
+    } else if ((int)params->load_profile == LOAD_RAMP) {
+        const float length_s = params->load_end_s - params->load_start_s;
+        const float rise = length_s > 0.0f ? (after - before) / (length_s * scale->omega_rad_per_s) : 0.0f;
+
+        free = turned(free, params->load_start_s, scale);
+        free.w -= rise;
+        free = turned(free, length_s, scale);
+        free.w += rise;
+        free.y += length_s > 0.0f ? 0.0f : before - after;
+    }
+    return hypotenuse(free.y, free.w);
+}
+
+/* Growth of permanent slip: negative damping, and the first tongue of parametric resonance at Z = 1/2 where the normal
+ * force swings by the share A of its mean. */
+static float slip_rate(const struct scale *scale, const struct finish *finish, float share)
+{
+    const float detuning = fmath_sqrt(scale->stiffness) - 0.5f;
+    const float pump = share * finish->slope * 0.25f;
+    const float inside = pump * pump - detuning * detuning;
+
+    return -0.5f * (scale->damping + finish->slope) + (inside > 0.0f ? fmath_sqrt(inside) : 0.0f);
+}
+
+/* Response of the pad to a normal oscillation of amplitude 1 at a multiple of wn, per unit of friction. */
+static float transfer(const struct scale *scale, float damping, float frequency)
+{
+    const float size = hypotenuse(scale->stiffness - frequency * frequency, damping * frequency);
+
+    return size > 1.0f / RESPONSE_MAX ? 1.0f / size : RESPONSE_MAX;
+}
+
+/* Speed of the tangential transient that starts with the load. */
+static float transient_speed(const struct params *params, const struct scale *scale, const struct finish *finish,
+                             float amplitude)
+{
+    const float z = fmath_sqrt(scale->stiffness);
+    const float damping = scale->damping + finish->slope;
+    const float forced = amplitude * transfer(scale, damping, 1.0f) * (scale->stiffness < 1.0f ? -1.0f : 1.0f);
+    float mean = finish->load;
+    float offset;
+
+    if (z == 0.0f) {
+        return 0.0f;
+    }
+    if ((int)params->load_profile == LOAD_RAMP && params->load_end_s > params->load_start_s) {
+        /* A ramp kicks at its start and at its end, each time by its rate. */
+        mean = 2.0f * finish->load / ((params->load_end_s - params->load_start_s) * scale->omega_rad_per_s * z);
+        mean = fmath_min(mean, finish->load);
+    }
+    offset = finish->friction * (mean / scale->stiffness - forced) - params->x_initial_m / scale->length_m;
+    return hypotenuse(z * offset, params->xd_initial_m_per_s / scale->speed_m_per_s);
+}
+
+static enum predictor_verdict judge(const struct prediction *prediction, const struct finish *finish)
+{
+    if (finish->speed == 0.0f) {
+        return PREDICTION_UNKNOWN;
+    }
+    if (prediction->rate > 0.0f || prediction->touch_ratio >= 1.0f) {
+        return PREDICTION_SQUEAL;
+    }
+    return prediction->rate > -RATE_MARGIN || prediction->touch_ratio > TOUCH_MARGIN ? PREDICTION_WATCH
+                                                                                     : PREDICTION_QUIET;
+}
+
+struct prediction predictor_predict(const struct params *params, const struct scale *scale)
+{
+    const struct finish finish = find_finish(params, scale);
+    const struct predictor_response response = predictor_response(params, scale);
+    const float onset = onset_amplitude(params, scale);
+    const float lasting = scale->normal_damping > 0.0f ? 0.0f : onset;
+    const float share = finish.load > 0.0f ? lasting / finish.load : 0.0f;
+    const float forced = finish.friction * transfer(scale, scale->damping + finish.slope, 1.0f);
+    struct prediction prediction;
+
+    prediction.rate = slip_rate(scale, &finish, share);
+    prediction.touch_ratio = 0.0f;
+    prediction.onset_touch_ratio = 0.0f;
+    if (finish.speed > 0.0f) {
+        prediction.touch_ratio = (lasting * forced + response.load_response) / finish.speed;
+        prediction.onset_touch_ratio = (onset * forced + response.load_response +
+                                        transient_speed(params, scale, &finish, onset)) /
+                                       finish.speed;
+    }
+    prediction.is_bistable =
+        finish.is_on_floor && scale->damping + scale->friction_slope * finish.load < 0.0f;
+    prediction.verdict = judge(&prediction, &finish);
+    return prediction;
+}
+
+struct predictor_response predictor_response(const struct params *params, const struct scale *scale)
+{
+    const struct finish finish = find_finish(params, scale);
+    const float damping = scale->damping + finish.slope;
+    const float friction = fmath_max(scale->friction, finish.friction);
+    struct predictor_response response = {friction * transfer(scale, damping, 1.0f), 0.0f, 0.0f};
+
+    if ((int)params->load_profile == LOAD_SINE) {
+        const float turns = params->load_frequency_hz * scale->step_s * (float)scale->steps_per_period;
+        const float size = hypotenuse(1.0f - turns * turns, scale->normal_damping * turns);
+        const float swing = params->load_end_n / scale->load_n / fmath_max(size, 1.0f / RESPONSE_MAX);
+
+        response.load_speed = swing * turns;
+        response.load_response = friction * swing * turns * transfer(scale, damping, turns);
+    }
+    return response;
+}
+
+const char *predictor_verdict_name(enum predictor_verdict verdict)
+{
+    static const char *const names[] = {"unknown", "quiet", "watch", "squeal"};
+
+    return names[verdict];
+}

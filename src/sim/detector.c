@@ -1,0 +1,244 @@
+/* Booking: every step into the present frame, every period into the strobes. */
+#include "sim/detector.h"
+
+#include "base/fixed.h"
+#include "sim/detector_parts.h"
+#include "sim/extremum.h"
+
+enum {
+    CHANGE_SHIFT = 2,     /* of strobe changes before squaring, so that a frame's sum fits 64 bits */
+    CHANGE_MAX = 1 << 27, /* the same, after the shift */
+    SQUARE_SHIFT = 11     /* of v before squaring: Q16 */
+};
+
+static const struct detector_frame empty_frame = {
+    .x_max = -INT32_MAX,
+    .x_min = INT32_MAX,
+    .v_max = -INT32_MAX,
+    .v_min = INT32_MAX,
+    .w_max = -INT32_MAX,
+    .w_min = INT32_MAX,
+};
+
+static void open_frame(struct detector *detector)
+{
+    detector->now = empty_frame;
+    detector->change_sum = 0u;
+    detector->v_sum = 0;
+    detector->v_square_sum = 0u;
+    detector->periods = 0u;
+}
+
+void detector_restart(struct detector *detector, const struct detector_config *config)
+{
+    detector->config = *config;
+    detector->frame = 0u;
+    detector->evidence = 0u;
+    detector->strobes = 0u;
+    detector->peaks = 0u;
+    detector->phase = 0u;
+    detector->is_below = false;
+    detector->hysteresis = 0;
+    detector->search.stage = STAGE_IDLE;
+    open_frame(detector);
+    if (!detector->has_diverged) {
+        detector->verdict.propensity = PROPENSITY_UNKNOWN;
+        detector->verdict.motion = CLASS_UNSETTLED;
+        detector->verdict.period = 0u;
+        detector->verdict.has_growth = false;
+    }
+}
+
+void detector_reset(struct detector *detector, const struct detector_config *config, const struct plant_output *now)
+{
+    detector->has_diverged = false;
+    detector->step = 0u;
+    detector->x1 = now->x;
+    detector->v1 = now->v;
+    detector->level = 0;
+    detector->verdict = (struct detector_verdict){0};
+    detector_restart(detector, config);
+}
+
+void detector_set_diverged(struct detector *detector)
+{
+    detector->has_diverged = true;
+    detector->search.stage = STAGE_IDLE;
+    detector->verdict.propensity = PROPENSITY_SQUEAL;
+    detector->verdict.motion = CLASS_DIVERGING;
+    detector->verdict.period = 0u;
+}
+
+static void widen(int32_t value, int32_t *low, int32_t *high)
+{
+    if (value > *high) {
+        *high = value;
+    }
+    if (value < *low) {
+        *low = value;
+    }
+}
+
+/* Displacement turns where the velocity changes its sign; a maximum is remembered with its time. */
+static void book_turn(struct detector *detector, const struct plant_output *output)
+{
+    const bool is_maximum = detector->v1 > 0;
+    const int32_t extreme = extremum_of_displacement(detector->x1, detector->v1, output->x, output->v,
+                                                     detector->config.step_q27);
+
+    widen(extreme, &detector->now.x_min, &detector->now.x_max);
+    if (is_maximum) {
+        const uint32_t slot = detector->peaks % DETECTOR_PEAKS;
+        const uint32_t before = fixed_abs(detector->v1) >> 1;
+        const uint32_t whole = before + (fixed_abs(output->v) >> 1) + 1u;
+
+        detector->peak_x[slot] = extreme;
+        detector->peak_time_q8[slot] =
+            ((uint32_t)detector->step << 8) + (extremum_ratio_q15(before, whole) >> 7);
+        detector->peaks++;
+    }
+}
+
+/* Upward passages of the level that the frame before has set, with hysteresis against small wiggles. */
+static void book_passage(struct detector *detector, const struct plant_output *output)
+{
+    if (detector->hysteresis == 0) {
+        return;
+    }
+    if (!detector->is_below) {
+        detector->is_below = output->x < detector->level - detector->hysteresis;
+    } else if (output->x >= detector->level && detector->x1 < detector->level) {
+        const uint32_t before = (uint32_t)((int64_t)detector->level - detector->x1);
+        const uint32_t whole = (uint32_t)((int64_t)output->x - detector->x1);
+
+        detector->now.last_q15 = (detector->step << 15) + extremum_ratio_q15(before, whole);
+        if (detector->now.crossings == 0u) {
+            detector->now.first_q15 = detector->now.last_q15;
+        }
+        detector->now.crossings++;
+        detector->is_below = false;
+    }
+}
+
+static uint64_t square_of_change(int64_t change)
+{
+    const uint64_t size = (uint64_t)(change < 0 ? -change : change) >> CHANGE_SHIFT;
+    const uint64_t bounded = size < CHANGE_MAX ? size : CHANGE_MAX;
+
+    return bounded * bounded;
+}
+
+/* Once a period. The second difference of three strobes is blind to what repeats every period and to a steady drift: what
+ * is left is the free part of the motion. */
+static void book_strobe(struct detector *detector, const struct plant_output *output)
+{
+    const uint32_t slot = detector->strobes % DETECTOR_STROBES;
+
+    if (detector->strobes >= 2u) {
+        const uint32_t one = (detector->strobes - 1u) % DETECTOR_STROBES;
+        const uint32_t two = (detector->strobes - 2u) % DETECTOR_STROBES;
+        const int64_t dx = (int64_t)output->x - 2 * (int64_t)detector->strobe_x[one] + detector->strobe_x[two];
+        const int64_t dv = (int64_t)output->v - 2 * (int64_t)detector->strobe_v[one] + detector->strobe_v[two];
+
+        detector->change_sum += square_of_change(dv);
+        detector->change_sum += (square_of_change(dx) >> 16) * detector->config.stiffness_q16;
+    }
+    detector->strobe_x[slot] = output->x;
+    detector->strobe_v[slot] = output->v;
+    detector->strobes++;
+    detector->periods++;
+}
+
+static void close_frame(struct detector *detector)
+{
+    detector->frames[detector->frame % DETECTOR_WINDOW_FRAMES] = detector->now;
+    detector->frame++;
+    detector->search.stage = STAGE_MEASURE;
+    detector->level = (int32_t)(((int64_t)detector->now.x_max + detector->now.x_min) / 2);
+    detector->hysteresis = (int32_t)(((int64_t)detector->now.x_max - detector->now.x_min) / 10);
+}
+
+static void book_sample(struct detector *detector, const struct plant_output *output)
+{
+    struct detector_frame *now = &detector->now;
+    const int32_t change = fixed_saturate((int64_t)output->v - detector->v1);
+    const int32_t v_q16 = output->v >> SQUARE_SHIFT;
+
+    widen(output->x, &now->x_min, &now->x_max);
+    widen(output->v, &now->v_min, &now->v_max);
+    widen(output->w, &now->w_min, &now->w_max);
+    if (change > now->acceleration || -change > now->acceleration) {
+        now->acceleration = change < 0 ? -change : change;
+    }
+    now->stick += output->stick;
+    now->slip_minus += output->slip_minus;
+    detector->v_sum += v_q16;
+    detector->v_square_sum += (uint64_t)((int64_t)v_q16 * v_q16);
+    if ((detector->v1 > 0 && output->v < 0) || (detector->v1 < 0 && output->v > 0)) {
+        book_turn(detector, output);
+    }
+    book_passage(detector, output);
+    detector->x1 = output->x;
+    detector->v1 = output->v;
+}
+
+/* Work left over from the last frame; true when it has brought something new to say. */
+static bool continue_work(struct detector *detector)
+{
+    switch ((enum detector_stage)detector->search.stage) {
+    case STAGE_MEASURE:
+        detector_rules_measure(detector);
+        detector->search.stage = STAGE_JUDGE;
+        open_frame(detector);
+        return false;
+    case STAGE_JUDGE:
+        detector_rules_judge(detector);
+        return true;
+    case STAGE_STROBES:
+    case STAGE_PEAKS:
+        detector_search_continue(detector);
+        return detector->search.stage == STAGE_IDLE;
+    case STAGE_IDLE:
+    default:
+        return false;
+    }
+}
+
+bool detector_push(struct detector *detector, const struct plant_output *output)
+{
+    bool is_new = false;
+
+    if (detector->has_diverged) {
+        return false;
+    }
+    if (detector->search.stage != STAGE_IDLE) {
+        is_new = continue_work(detector);
+    }
+    book_sample(detector, output);
+    detector->verdict.disc = output->disc;
+    detector->step++;
+    if (++detector->phase == detector->config.steps_per_period) {
+        detector->phase = 0u;
+        book_strobe(detector, output);
+        if (detector->periods == DETECTOR_FRAME_PERIODS) {
+            close_frame(detector);
+        }
+    }
+    return is_new;
+}
+
+const char *detector_propensity_name(uint8_t propensity)
+{
+    static const char *const names[] = {"unknown", "quiet", "watch", "squeal"};
+
+    return propensity < sizeof names / sizeof names[0] ? names[propensity] : "?";
+}
+
+const char *detector_class_name(uint8_t motion)
+{
+    static const char *const names[] = {"unsettled", "rest",  "decaying",         "growing",
+                                        "forced",    "stickslip", "cross",        "limitcycle-slip",
+                                        "limitcycle-stickslip", "aperiodic", "diverging"};
+
+    return motion < sizeof names / sizeof names[0] ? names[motion] : "?";
+}

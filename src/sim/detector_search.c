@@ -1,0 +1,154 @@
+/* Which period does the motion repeat in, if any? Strobes where the normal oscillation sets the clock, maxima of x where
+ * the pad keeps its own. A few comparisons a step. */
+#include "base/fixed.h"
+#include "sim/detector_parts.h"
+
+enum {
+    STROBES_COMPARED = DETECTOR_STROBES - DETECTOR_FRAME_PERIODS, /* older ones may be overwritten meanwhile */
+    PEAKS_COMPARED = 20,
+    PEAK_PERIOD_MAX = 4,
+    PAIRS_PER_STEP = 8,     /* two comparisons each */
+    TOLERANCE_SHIFT = 10,   /* of the range: 1e-3 */
+    INTERVAL_SHIFT = 8,     /* of the interval between maxima: 4e-3 */
+    AUTONOMOUS_RATIO = 8    /* the normal oscillation explains less than an eighth: the pad keeps its own time */
+};
+
+static void finish(struct detector *detector, enum detector_class motion, uint32_t period)
+{
+    detector->search.stage = STAGE_IDLE;
+    detector->verdict.motion = (uint8_t)motion;
+    detector->verdict.period = (uint8_t)period;
+}
+
+static bool sticks(const struct detector *detector)
+{
+    return detector->verdict.stick > 0u;
+}
+
+/* Name of a motion for which no period was found. */
+static void finish_without_period(struct detector *detector, const struct detector_window *window)
+{
+    const struct detector_verdict *verdict = &detector->verdict;
+
+    if (window->has_events || !verdict->has_growth) {
+        finish(detector, CLASS_APERIODIC, 0u);
+    } else if (verdict->growth_q16 < -verdict->growth_error_q16) {
+        finish(detector, CLASS_DECAYING, 0u);
+    } else if (verdict->growth_q16 > verdict->growth_error_q16) {
+        finish(detector, CLASS_GROWING, 0u);
+    } else {
+        finish(detector, CLASS_APERIODIC, 0u);
+    }
+}
+
+static bool is_autonomous(const struct detector_window *window)
+{
+    return (uint64_t)window->forced * AUTONOMOUS_RATIO < window->speed;
+}
+
+void detector_search_start(struct detector *detector, const struct detector_window *window)
+{
+    const bool by_peaks = is_autonomous(window);
+
+    detector->search.period = 1u;
+    detector->search.index = 0u;
+    detector->search.head = by_peaks ? detector->peaks : detector->strobes;
+    if (detector->frame < DETECTOR_WINDOW_FRAMES) {
+        finish(detector, CLASS_UNSETTLED, 0u);
+    } else if (window->speed <= window->floor) {
+        finish(detector, CLASS_REST, 0u);
+    } else if (by_peaks ? detector->peaks <= PEAKS_COMPARED : detector->strobes < STROBES_COMPARED) {
+        finish_without_period(detector, window);
+        if (detector->verdict.motion == CLASS_APERIODIC) {
+            detector->verdict.motion = CLASS_UNSETTLED;
+        }
+    } else {
+        detector->search.stage = by_peaks ? STAGE_PEAKS : STAGE_STROBES;
+    }
+}
+
+static bool differs(int32_t a, int32_t b, int64_t tolerance)
+{
+    const int64_t difference = (int64_t)a - b;
+
+    return difference > tolerance || -difference > tolerance;
+}
+
+static bool strobes_differ(const struct detector *detector, uint32_t newer, uint32_t older)
+{
+    const struct detector_verdict *verdict = &detector->verdict;
+    const uint32_t a = newer % DETECTOR_STROBES;
+    const uint32_t b = older % DETECTOR_STROBES;
+
+    return differs(detector->strobe_x[a], detector->strobe_x[b],
+                   ((int64_t)verdict->x_max - verdict->x_min) >> TOLERANCE_SHIFT) ||
+           differs(detector->strobe_v[a], detector->strobe_v[b],
+                   ((int64_t)verdict->v_max - verdict->v_min) >> TOLERANCE_SHIFT);
+}
+
+static bool peaks_differ(const struct detector *detector, uint32_t newer, uint32_t older)
+{
+    const struct detector_verdict *verdict = &detector->verdict;
+    const uint32_t a = newer % DETECTOR_PEAKS;
+    const uint32_t b = older % DETECTOR_PEAKS;
+    const uint32_t interval_a = detector->peak_time_q8[a] - detector->peak_time_q8[(newer - 1u) % DETECTOR_PEAKS];
+    const uint32_t interval_b = detector->peak_time_q8[b] - detector->peak_time_q8[(older - 1u) % DETECTOR_PEAKS];
+
+    return differs(detector->peak_x[a], detector->peak_x[b],
+                   ((int64_t)verdict->x_max - verdict->x_min) >> (TOLERANCE_SHIFT - 1)) ||
+           differs((int32_t)interval_a, (int32_t)interval_b, interval_a >> INTERVAL_SHIFT);
+}
+
+/* Names a motion that repeats after period strobes or maxima. */
+static void finish_with_period(struct detector *detector, const struct detector_window *window)
+{
+    const uint32_t period = detector->search.period;
+
+    if (detector->search.stage == STAGE_PEAKS) {
+        if (!window->has_events) {
+            const int32_t growth = detector->verdict.growth_q16;
+            const int32_t error = detector->verdict.growth_error_q16;
+
+            /* A slow spiral repeats nearly. */
+            if (detector->verdict.has_growth && (growth > error + error || growth < -error - error) &&
+                fixed_abs(growth) > 76u) {
+                finish_without_period(detector, window);
+                return;
+            }
+        }
+        finish(detector, window->has_events ? CLASS_LIMITCYCLE_STICKSLIP : CLASS_LIMITCYCLE_SLIP, period);
+    } else if (!window->has_events) {
+        finish(detector, CLASS_FORCED, period);
+    } else {
+        finish(detector, sticks(detector) ? CLASS_STICKSLIP : CLASS_CROSS, period);
+    }
+}
+
+void detector_search_continue(struct detector *detector)
+{
+    struct detector_search *search = &detector->search;
+    const bool by_peaks = search->stage == STAGE_PEAKS;
+    const uint32_t compared = by_peaks ? PEAKS_COMPARED : STROBES_COMPARED;
+    const uint32_t newest = search->head - 1u;
+
+    for (uint32_t pair = 0u; pair < PAIRS_PER_STEP; pair++) {
+        const uint32_t newer = newest - search->index;
+        const uint32_t older = newer - search->period;
+
+        if (by_peaks ? peaks_differ(detector, newer, older) : strobes_differ(detector, newer, older)) {
+            search->index = 0u;
+            search->period++;
+            if (search->period > (by_peaks ? PEAK_PERIOD_MAX : DETECTOR_PERIOD_MAX)) {
+                const struct detector_window window = detector_rules_window(detector);
+
+                finish_without_period(detector, &window);
+                return;
+            }
+        } else if (++search->index + search->period >= compared) {
+            const struct detector_window window = detector_rules_window(detector);
+
+            finish_with_period(detector, &window);
+            return;
+        }
+    }
+}

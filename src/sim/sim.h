@@ -1,0 +1,73 @@
+/* One plant with its load, its detector and its counters: what a tick advances. Everything lives in a struct that the
+ * caller owns, so a program may run several side by side. The trajectory depends on the set and the step index alone. */
+#ifndef SIM_SIM_H
+#define SIM_SIM_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "analysis/predictor.h"
+#include "model/params.h"
+#include "model/scale.h"
+#include "model/step_f32.h"
+#include "sim/detector.h"
+#include "sim/measure.h"
+#include "sim/profile.h"
+#include "sim/sample.h"
+
+/* A set with everything derived from it, made in main and handed to the interrupt as a whole. */
+struct sim_plan {
+    struct params params;
+    struct scale scale;
+    struct step_f32_coeffs f32;
+    struct profile load, speed;
+    struct detector_config detector;
+    struct prediction prediction;
+};
+
+/* Checks a set and derives its plan. latched as in scale_derive(). *plan is undefined on a problem. [MAIN] */
+struct params_problem sim_plan_make(struct sim_plan *plan, const struct params *params, const struct scale *latched);
+
+/* Since reset. */
+struct sim_counters {
+    uint32_t events;      /* switches of regime */
+    uint32_t caps;        /* steps in which one more was due than may be located */
+    uint32_t saturations; /* steps whose output did not fit its numbers */
+    uint32_t lifted;      /* steps with lost contact, y < 0 */
+    uint32_t gap_held;    /* steps in which the gap was held at its limit */
+};
+
+enum sim_fault { SIM_FAULT_NONE, SIM_FAULT_DOMAIN };
+
+struct sim {
+    const struct sim_plan *plan;
+    struct step_f32 f32;
+    struct plant_output output;
+    struct detector detector;
+    struct measure measure;
+    struct sim_counters counters;
+    uint64_t step;
+    uint32_t hash; /* of every state since reset */
+    enum sim_fault fault;
+    bool has_v10; /* |v| has passed ten times the disc's speed: first time, in steps and 2^-15 steps */
+    uint64_t v10_step;
+    uint32_t v10_fraction_q15;
+};
+
+/* Back to the initial state of the plan at step 0. The plan must outlive its use here. [ISR] */
+void sim_reset(struct sim *sim, const struct sim_plan *plan);
+
+/* A new set takes hold between two steps; state and units are kept. [ISR] */
+void sim_apply(struct sim *sim, const struct sim_plan *plan);
+
+/* One step: load, plant, domain check, detector, measurement, hash. In a fault it does nothing. Returns true when the
+ * detector has a new verdict. [ISR] */
+bool sim_step(struct sim *sim);
+
+/* Starts a measurement over the given number of steps from here. [ISR] */
+void sim_measure(struct sim *sim, uint64_t steps);
+
+/* The present state as a record for main. [ISR] */
+void sim_sample(const struct sim *sim, struct sample *sample);
+
+#endif
