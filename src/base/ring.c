@@ -20,10 +20,7 @@ void ring_init(struct ring *ring, void *storage, size_t record_size, uint32_t ca
     ring->dropped = 0u;
 }
 
-uint32_t ring_fill(const struct ring *ring)
-{
-    return ring->head - ring->tail;
-}
+uint32_t ring_fill(const struct ring *ring) { return ring->head - ring->tail; }
 
 bool ring_push(struct ring *ring, const void *record)
 {
