@@ -11,6 +11,8 @@ every failure. It computes nothing: the answers for a case come from the table t
   --flood             says a lot before it reads each line
   --gap               loses samples of a demo and counts them
   --hide              loses samples of a demo and does not count them
+  --emulated          says that it runs in an emulator
+  --speechless        ends a demo without a verdict
 """
 import argparse
 import csv
@@ -131,9 +133,11 @@ class Firmware:
         self.answer("measure", **fields)
 
     def do_step(self, words):
-        self.step += int(words[0])
         if self.rows:
+            self.step += int(words[0])
             self.fault_check(self.row())
+        else:
+            self.stream_to(self.step + int(words[0]), 2)
         self.answer("step", done=words[0], step=self.step, hash="%08x" % self.step)
 
     def do_verdict(self, words):
@@ -145,7 +149,7 @@ class Firmware:
 
     def do_status(self, words):
         self.answer("status", state="ready", step=self.step, overruns=0, caps=0, saturations=0, drops=self.drops,
-                    hash="%08x" % (self.step * 2654435761 % 2 ** 32))
+                    spp=self.spp(), hash="%08x" % (self.step * 2654435761 % 2 ** 32))
 
     def do_list(self, words):
         for symbol, value in self.values.items():
@@ -174,23 +178,30 @@ class Firmware:
                 "xd": "%.9g" % velocity, "y": 3e-5, "yd": 0, "N": 3000, "F": 1200, "vr": "%.9g" % (speed - velocity),
                 "mode": 0, "propensity": 1 if step < 1000 else 3}
 
+    def stream_to(self, end, act):
+        while self.step < end:
+            self.step += 1
+            if self.every == 0 or self.step % self.every:
+                continue
+            if (self.options.gap or self.options.hide) and act == 2 and 1000 <= self.step < 1005:
+                self.drops += 1 if self.options.gap else 0
+                continue
+            values = self.sample(self.step, act)
+            self.say(",".join(str(values[name]) for name in self.signals))
+
     def do_demo(self, words):
         act = int(words[0])
         self.step = 0
         self.drops = 0
         self.say("- act %d: a fake brake is applied" % act)
         self.say("! propensity squeal")
-        for step in range(0, DEMO_STEPS, self.every or DEMO_STEPS):
-            is_lost = (self.options.gap or self.options.hide) and act == 2 and 1000 <= step < 1000 + 5 * self.every
-            if is_lost:
-                self.drops += 1 if self.options.gap else 0
-            elif self.every:
-                values = self.sample(step, act)
-                self.say(",".join(str(values[name]) for name in self.signals))
-        self.step = DEMO_STEPS
-        self.say("- verdict propensity=squeal class=limitcycle-stickslip-p1 period=1 amplitude_um=8.15 "
-                 "velocity_mm_s_rms=101.3 level_db=160 acceleration_g=130 frequency_hz=1999.5 band=squeal audible=yes "
-                 "stick=0.051 predicted=squeal sigma=10")
+        self.stream_to(DEMO_STEPS, act)
+        if self.options.speechless:
+            self.answer("demo", act=act)
+            return
+        self.say("- verdict propensity=%s class=limitcycle-stickslip-p1 period=1 amplitude_um=8.15 "
+                 "velocity_mm_s_rms=101.3 level_db=160 acceleration_g=130 frequency_hz=2906.98 band=squeal audible=yes "
+                 "stick=0.051 predicted=squeal sigma=10" % ("squeal" if act == 2 else "quiet"))
         self.answer("demo", act=act)
 
     def do(self, line):
@@ -199,7 +210,7 @@ class Firmware:
             self.echo = words[0] == "on"
             self.say("ok echo " + words[0])
         elif name == "id":
-            self.answer("id", name="squeal", version="0.0", build="fake", board="fake", emulated="no", method="event",
+            self.answer("id", name="squeal", version="0.0", build="fake", board="fake", emulated="yes" if self.options.emulated else "no", method="event",
                         states=4, spp=self.spp())
         elif name in ("defaults", "reset", "preset"):
             self.values = dict(DEFAULTS) if name != "reset" else self.values
@@ -238,7 +249,7 @@ def main():
         parser.add_argument(name)
     for name in ("--skew", "--say"):
         parser.add_argument(name, action="append")
-    for name in ("--flood", "--gap", "--hide", "--version"):
+    for name in ("--flood", "--gap", "--hide", "--speechless", "--emulated", "--version"):
         parser.add_argument(name, action="store_true")
     options = parser.parse_args()
     if options.version:

@@ -4,6 +4,8 @@ import csv
 import json
 import os
 import signal
+import shutil
+import struct
 import subprocess
 import sys
 import tempfile
@@ -179,11 +181,105 @@ def signal_tests(tap, folder):
         tap.ok(code == -number and not is_running(pid), "signal %d ends the firmware too" % number)
 
 
+def sound_of(path):
+    """Rate, points and frequency of a mono file of 16 bit."""
+    with open(path, "rb") as file:
+        data = file.read()
+    rate, = struct.unpack("<I", data[24:28])
+    points = struct.unpack("<%dh" % ((len(data) - 44) // 2), data[44:])
+    ups = [i for i in range(len(points) // 2, len(points) - 1) if points[i] < 0 <= points[i + 1]]
+    return rate, points, (len(ups) - 1) * rate / (ups[-1] - ups[0])
+
+
+def run_tests(tap, folder):
+    out = folder + "/run"
+
+    def story(*fake, more=("--acts", "2,5"), env=None):
+        return subprocess.run([TOOL, "run", "--board", "fake", "--out", out, "--limit", "20", *more, "--", *FAKE, *fake],
+                              stdout=subprocess.PIPE, stderr=subprocess.PIPE, stdin=subprocess.DEVNULL,
+                              universal_newlines=True, timeout=LIMIT_S, env=env)
+
+    run = story()
+    tap.ok(run.returncode == 0, "a story told to the end", run)
+    tap.ok("act 2: a fake brake is applied" in run.stdout and "frequency            2906.98 Hz" in run.stdout,
+           "prints the device's words and verdict", run)
+    with open(out + "/state.csv", newline="") as file:
+        rows = list(csv.DictReader(file))
+    second = [row for row in rows if row["act"] == "2"]
+    tap.ok(list(rows[0]) == "act,step,t,x,xd,y,yd,N,F,vr,mode,propensity".split(","), "state.csv has the act before the signals")
+    tap.ok([int(row["step"]) for row in second] == list(range(1, len(second) + 1)), "and every step")
+    with open(out + "/run.json") as file:
+        record = json.load(file)
+    act = record["acts"][0]
+    tap.ok(record["firmware"]["build"] == "fake" and record["board"] == "fake" and record["emulator"] is None and
+           record["seed"] is None, "run.json names firmware and board")
+    tap.ok(act["parameters_si"]["ke"] == 1 and act["parameters_si"]["load"] == "constant" and
+           abs(act["groups"]["Z2"] - 2) < 1e-6 and abs(act["groups"]["C"] - 0.01 / 0.3 ** 0.5) < 1e-8,
+           "parameters in SI and as groups")
+    tap.ok(act["verdict"]["propensity"] == "squeal" and act["complete"] and act["samples"] == len(second) and
+           len(act["hash_before"]) == 8, "verdict, counters, hash")
+    rate, points, frequency = sound_of(out + "/squeal.wav")
+    tap.ok(rate == 48000 and len(points) >= 24000 and abs(frequency / 2906.98 - 1) < 1e-3,
+           "half a second of sound or more, at its physical pitch (%.1f Hz)" % frequency)
+    tap.ok(29400 < max(points) < 29600 and min(points) > -29600, "which fills its range and does not clip")
+    if shutil.which("gnuplot"):
+        names = ["phase-2", "phase-5", "stop-envelope"]
+        tap.ok(all(os.path.getsize("%s/%s.%s" % (out, name, kind)) > 10000 for name in names for kind in ("svg", "png")),
+               "the pictures", run)
+        tap.ok("stop-envelope" in run.stdout, "are in the closing list", run)
+    else:
+        tap.ok("no pictures" in run.stdout, "says that there are no pictures", run)
+
+    bare = folder + "/bin"
+    os.mkdir(bare)
+    os.symlink(shutil.which("sh"), bare + "/sh")
+    shutil.rmtree(out)
+    run = story(env={"PATH": bare})
+    tap.ok(run.returncode == 0 and "no pictures: gnuplot is not installed" in run.stdout and
+           sorted(os.listdir(out)) == ["run.json", "squeal.wav", "state.csv"], "without gnuplot all but the pictures", run)
+
+    run = story("--emulated")
+    with open(out + "/run.json") as file:
+        tap.ok(json.load(file)["emulator"].startswith("Python"), "an emulator is named by its own --version", run)
+    run = story("--gap")
+    tap.ok(run.returncode == 0 and "5 samples did not fit the line" in run.stdout, "lost and counted samples are told", run)
+    run = story("--hide")
+    tap.ok(run.returncode == 1 and "act 2: 5 samples are missing, the device counted 0" in run.stderr,
+           "samples lost unnoticed fail", run)
+    run = story("--speechless")
+    tap.ok(run.returncode == 1 and "act 2 came without a verdict" in run.stderr, "an act without a verdict fails", run)
+    run = story("--refuse", "demo 5")
+    with open(out + "/run.json") as file:
+        acts = json.load(file)["acts"]
+    tap.ok(run.returncode == 1 and "'demo 5' was answered: error not-served" in run.stderr and
+           [act["complete"] for act in acts] == [True, False], "a refused act fails and is recorded as incomplete", run)
+    run = story("--die", "demo 5")
+    tap.ok(run.returncode == 1 and "exit code 3 during 'demo 5': fake: the kernel image is gone" in run.stderr,
+           "a firmware that dies", run)
+    run = story("--mute", "demo", more=("--limit", "1", "--acts", "1"))
+    tap.ok(run.returncode == 1 and "was silent for 1 s after 'demo 1'" in run.stderr, "a silent firmware", run)
+
+    os.remove(out + "/state.csv")
+    os.symlink("/dev/full", out + "/state.csv")
+    run = story()
+    tap.ok(run.returncode == 1 and "state.csv: No space left on device" in run.stderr, "a full disk", run)
+    run = tool("run", "--board", "fake", "--out", folder + "/a/b", "--", *FAKE)
+    tap.ok(run.returncode == 1 and run.stderr == "squeal: %s/a/b: No such file or directory\n" % folder,
+           "a missing folder", run)
+    with open("/dev/full", "w") as full:
+        run = subprocess.run([TOOL, "--help"], stdout=full, stderr=subprocess.PIPE, universal_newlines=True)
+    tap.ok(run.returncode == 1 and "standard output: No space left on device" in run.stderr, "a full standard output")
+    for acts in ("0", "6", "1,", "1;2", ""):
+        tap.ok(tool("run", "--board", "b", "--out", out, "--acts", acts, "--", *FAKE).returncode == 2,
+               "usage: --acts '%s'" % acts)
+
+
 def main():
     tap = Tap()
     with tempfile.TemporaryDirectory() as folder:
         golden_tests(tap, folder)
         signal_tests(tap, folder)
+        run_tests(tap, folder)
     print("1..%d" % tap.count)
     sys.exit(tap.failed != 0)
 

@@ -13,6 +13,8 @@
 #define COLOUR_WATCH "#fff4d6"
 #define COLOUR_SQUEAL "#f9dede"
 
+#define DISC_NEAR 4.0 /* times the fastest motion */
+
 enum {
     PATH_SAMPLES = 20000, /* of the way to the attractor */
     PERIODS_SHOWN = 12,   /* of the attractor */
@@ -85,7 +87,7 @@ static void picture_start(FILE *script, const struct story *story, const char *n
                   is_svg ? "svg" : "pngcairo", is_svg ? 20 : 18);
     (void)fprintf(script, "set output '%s'\n", story_path(story, path, file));
     (void)fputs("set border 3 lc rgb '#606060'\nset tics nomirror out\nset grid lc rgb '#ececec' lt 1\n"
-                "set key top right samplen 2 opaque box lc rgb '#d0d0d0'\nset lmargin 12\nset rmargin 4\n",
+                "set key outside above horizontal center samplen 3\nset lmargin 12\nset rmargin 4\n",
                 script);
 }
 
@@ -114,51 +116,93 @@ static void script_close(struct story *story, FILE *script, const char *name, co
     }
 }
 
-static void phase_data(FILE *script, const char *name, const struct act *act, size_t from, size_t to,
-                       struct unit length, struct unit speed)
+static void phase_points(FILE *script, const struct act *act, size_t from, size_t to, struct unit length,
+                         struct unit speed)
 {
-    (void)fprintf(script, "$%s << END\n", name);
-    for (size_t i = from; i < to; i++) {
+    for (size_t i = from; i < to && i < act->count; i++) {
         (void)fprintf(script, "%.6g %.6g\n", act->samples[i].x_m * length.factor,
                       act->samples[i].xd_m_per_s * speed.factor);
+    }
+}
+
+/* Samples of one normal period. */
+static size_t period_of(const struct act *act)
+{
+    const double spp = fields_number(act->status, "spp");
+
+    return (size_t)fmax(1.0, (spp > 0.0 ? spp : 64.0) / act->every);
+}
+
+/* The way to the attractor. A long one is thinned by whole periods, an empty line between two of them lifts the pen. */
+static void path_data(FILE *script, const struct act *act, size_t to, struct unit length, struct unit speed)
+{
+    const size_t period = period_of(act);
+    const size_t stride = period * ((to - act->start) / PATH_SAMPLES + 1);
+
+    (void)fputs("$path << END\n", script);
+    for (size_t from = act->start; from < to; from += stride) {
+        phase_points(script, act, from, from + period + 1, length, speed);
+        (void)fputs(stride > period ? "\n" : "", script);
     }
     (void)fputs("END\n", script);
 }
 
+/* The disc's speed as a line, or in words where it lies so far off that the motion would shrink to nothing. */
+static void disc_write(FILE *script, double disc, double v_low, double v_high, struct unit speed)
+{
+    const bool is_near = fabs(disc) < DISC_NEAR * fmax(fabs(v_low), fabs(v_high));
+    const double low = is_near ? fmin(v_low, disc) : v_low;
+    const double high = is_near ? fmax(v_high, disc) : v_high;
+    const double margin = 0.06 * (high - low);
+
+    if (high > low) {
+        (void)fprintf(script, "set yrange [%.9g:%.9g]\n", (low - margin) * speed.factor,
+                      (high + margin) * speed.factor);
+    }
+    if (is_near) {
+        (void)fprintf(script,
+                      "set arrow from graph 0, first %.9g to graph 1, first %.9g nohead lw 2 dt 2 lc rgb '" COLOUR_DISC
+                      "'\ndisc = 'disc speed v_0'\n",
+                      disc * speed.factor, disc * speed.factor);
+    } else {
+        (void)fprintf(script, "disc = 'disc speed v_0 = %.4g %s, far off'\n", disc * speed.factor, speed.name);
+    }
+}
+
 void plot_phase(struct story *story, const struct act *act)
 {
-    const double spp = fields_number(act->status, "spp");
-    const size_t tail = (size_t)(PERIODS_SHOWN * (spp > 0.0 ? spp : 64.0) / act->every);
-    const size_t tail_start = act->count > tail ? act->count - tail : 0;
-    const double disc = act->count > 0 ? act->samples[act->count - 1].disc_m_per_s : 0.0;
-    double x_max = 0.0, v_max = fabs(disc);
+    const size_t tail = PERIODS_SHOWN * period_of(act);
+    const size_t tail_start = act->count > act->start + tail ? act->count - tail : act->start;
+    double x_max = 0.0, v_low = 0.0, v_high = 0.0;
     char name[32];
     FILE *script = act->count > 0 ? script_open(story) : NULL;
 
     if (script == NULL) {
         return;
     }
-    for (size_t i = 0; i < act->count; i++) {
+    for (size_t i = act->start; i < act->count; i++) {
         x_max = fmax(x_max, fabs(act->samples[i].x_m));
-        v_max = fmax(v_max, fabs(act->samples[i].xd_m_per_s));
+        v_low = fmin(v_low, act->samples[i].xd_m_per_s);
+        v_high = fmax(v_high, act->samples[i].xd_m_per_s);
     }
     const struct unit length = unit_of_length(x_max);
-    const struct unit speed = unit_of_speed(v_max);
-    phase_data(script, "path", act, tail_start > PATH_SAMPLES ? tail_start - PATH_SAMPLES : 0, tail_start + 1, length,
-               speed);
-    phase_data(script, "motion", act, tail_start, act->count, length, speed);
+    const struct unit speed = unit_of_speed(fmax(-v_low, v_high));
+    path_data(script, act, tail_start, length, speed);
+    (void)fputs("$motion << END\n", script);
+    phase_points(script, act, tail_start, act->count, length, speed);
+    (void)fputs("END\n", script);
     (void)snprintf(name, sizeof name, "phase-%d", act->number);
     for (int i = 0; i < 2; i++) {
         picture_start(script, story, name, i == 0);
         title_write(script, act);
-        (void)fprintf(script, "set xlabel 'displacement x  [%s]'\nset ylabel 'velocity dx/dt  [%s]'\n", length.name,
-                      speed.name);
+        disc_write(script, act->samples[act->count - 1].disc_m_per_s, v_low, v_high, speed);
         (void)fprintf(script,
-                      "set offsets graph 0.05,0.05,0.12,0.05\n"
+                      "set xlabel 'displacement x  [%s]'\nset ylabel 'velocity dx/dt  [%s]'\n"
+                      "set offsets graph 0.05,0.05,0,0\n"
                       "plot $path with lines lw 1 lc rgb '" COLOUR_PATH "' title 'the way there', "
-                      "%.9g with lines lw 2 dt 2 lc rgb '" COLOUR_DISC "' title 'disc speed v0', "
-                      "$motion with lines lw 2.5 lc rgb '" COLOUR_MOTION "' title 'at the end'\n",
-                      disc * speed.factor);
+                      "$motion with lines lw 2.5 lc rgb '" COLOUR_MOTION "' title 'at the end', "
+                      "NaN with lines lw 2 dt 2 lc rgb '" COLOUR_DISC "' title disc\n",
+                      length.name, speed.name);
     }
     script_close(story, script, name, "phase portrait");
 }
@@ -166,9 +210,9 @@ void plot_phase(struct story *story, const struct act *act)
 /* One rectangle over the whole height for each stretch of time with the same verdict. */
 static void bands_write(FILE *script, const struct act *act)
 {
-    size_t start = 0;
+    size_t start = act->start;
 
-    for (size_t i = 1; i <= act->count; i++) {
+    for (size_t i = start + 1; i <= act->count; i++) {
         const enum propensity propensity = act->samples[start].propensity;
         if (i < act->count && act->samples[i].propensity == propensity) {
             continue;
@@ -187,10 +231,13 @@ static void bands_write(FILE *script, const struct act *act)
 /* Smallest and largest displacement, and the disc's speed, over equal stretches of samples. */
 static void envelope_data(FILE *script, const struct act *act, struct unit length, struct unit speed)
 {
-    const size_t width = act->count / ENVELOPE_BINS + 1;
+    const size_t count = act->count - act->start;
+    const size_t period = 2 * period_of(act);
+    const size_t fine = count / ENVELOPE_BINS + 1;
+    const size_t width = fine < period && count / period >= ENVELOPE_BINS / 8 ? period : fine;
 
     (void)fputs("$stop << END\n", script);
-    for (size_t from = 0; from < act->count; from += width) {
+    for (size_t from = act->start; from < act->count; from += width) {
         const size_t to = from + width < act->count ? from + width : act->count;
         double low = act->samples[from].x_m, high = low;
         for (size_t i = from; i < to; i++) {
@@ -211,7 +258,7 @@ void plot_stop(struct story *story, const struct act *act)
     if (script == NULL) {
         return;
     }
-    for (size_t i = 0; i < act->count; i++) {
+    for (size_t i = act->start; i < act->count; i++) {
         x_max = fmax(x_max, fabs(act->samples[i].x_m));
         v_max = fmax(v_max, fabs(act->samples[i].disc_m_per_s));
     }
@@ -221,7 +268,7 @@ void plot_stop(struct story *story, const struct act *act)
     for (int i = 0; i < 2; i++) {
         picture_start(script, story, "stop-envelope", i == 0);
         bands_write(script, act);
-        (void)fprintf(script, "set xrange [%.9g:%.9g]\nset multiplot\n", act->samples[0].t_s,
+        (void)fprintf(script, "set xrange [%.9g:%.9g]\nset multiplot\n", act->samples[act->start].t_s,
                       act->samples[act->count - 1].t_s);
         title_write(script, act);
         (void)fprintf(script,

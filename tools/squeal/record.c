@@ -112,9 +112,13 @@ void record_sample(struct record *record, const char *text)
     if (fprintf(record->file, "%d,%s\n", act->number, text) < 0) {
         complain(record, record->path, strerror(errno));
     }
-    /* A step that does not grow is a reset, not a gap. */
-    if (act->count > 0 && sample.step > act->samples[act->count - 1].step) {
-        act->missing += (sample.step - act->samples[act->count - 1].step) / act->every - 1.0;
+    if (act->count > 0) {
+        const double steps = sample.step - act->samples[act->count - 1].step;
+        if (steps > 0.0) {
+            act->missing += steps / act->every - 1.0;
+        } else {
+            act->start = act->count; /* a reset, not a gap */
+        }
     }
     if (!sample_keep(act, &sample)) {
         complain(record, "out of memory after sample", text);

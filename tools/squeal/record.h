@@ -32,6 +32,7 @@ struct act {
     double missing; /* samples that the step column shows to be missing */
     struct sample *samples;
     size_t count, capacity;
+    size_t start;                   /* first sample of the last run: a reset within the act starts a new one */
     char title[SESSION_LINE_MAX];   /* the first line of the narration */
     char verdict[SESSION_LINE_MAX]; /* fields */
     char status[SESSION_LINE_MAX];

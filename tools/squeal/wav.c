@@ -25,7 +25,7 @@ static double cubic(const double v[4], double fraction)
 static double velocity_at(const struct act *act, size_t i, double t_s)
 {
     const struct sample *a = &act->samples[i];
-    const struct sample *before = i > 0 ? a - 1 : a;
+    const struct sample *before = i > act->start ? a - 1 : a;
     const struct sample *after = i + 2 < act->count ? a + 2 : a + 1;
     const double v[4] = {before->xd_m_per_s, a->xd_m_per_s, a[1].xd_m_per_s, after->xd_m_per_s};
 
@@ -37,10 +37,10 @@ static double velocity_at(const struct act *act, size_t i, double t_s)
 static void resample(const struct act *act, double *points, size_t count)
 {
     double peak = 0.0;
-    size_t i = 0;
+    size_t i = act->start;
 
     for (size_t point = 0; point < count; point++) {
-        const double t_s = act->samples[0].t_s + (double)point / WAV_RATE_HZ;
+        const double t_s = act->samples[act->start].t_s + (double)point / WAV_RATE_HZ;
         while (i + 2 < act->count && act->samples[i + 1].t_s <= t_s) {
             i++;
         }
@@ -79,11 +79,11 @@ static void header_write(FILE *file, size_t points)
 
 double wav_write(const char *path, const struct act *act, double longest_s, char problem[CSV_PROBLEM_MAX])
 {
-    if (act->count < 2) {
+    if (act->count < act->start + 2) {
         (void)snprintf(problem, CSV_PROBLEM_MAX, "%s: no samples to hear", path);
         return 0.0;
     }
-    const double length_s = fmin(act->samples[act->count - 1].t_s - act->samples[0].t_s, longest_s);
+    const double length_s = fmin(act->samples[act->count - 1].t_s - act->samples[act->start].t_s, longest_s);
     const size_t count = (size_t)fmax(1.0, floor(length_s * WAV_RATE_HZ));
     double *points = calloc(count, sizeof *points);
     FILE *file = points == NULL ? NULL : csv_create(path, problem);
