@@ -1,0 +1,266 @@
+/* Orders, credit and reports between main and the interrupt. */
+#include "sim/executive.h"
+
+#include "base/assert.h"
+#include "base/mem.h"
+
+enum { TICKS_PER_REPORT = 32 }; /* of a free run without news */
+
+static void write_report(struct executive *executive)
+{
+    const struct sim *sim = &executive->sim;
+    struct executive_report report;
+
+    sim_sample(sim, &report.now);
+    report.now.epoch = executive->in_force.epoch;
+    report.counters = sim->counters;
+    report.verdict = sim->detector.verdict;
+    report.measure = sim->measure;
+    report.load = executive->load;
+    report.has_v10 = sim->has_v10;
+    report.v10_step = sim->v10_step;
+    report.v10_fraction_q15 = sim->v10_fraction_q15;
+    report.generation = publish_taken(&executive->publish);
+    handoff_write(&executive->handoff, &report);
+    executive->until_report = TICKS_PER_REPORT;
+}
+
+static void push_sample(struct executive *executive)
+{
+    struct sample sample;
+
+    sim_sample(&executive->sim, &sample);
+    sample.epoch = executive->in_force.epoch;
+    (void)ring_push(&executive->samples, &sample); /* a full ring counts the drop itself */
+    executive->until_sample = executive->in_force.sample_every;
+}
+
+static void take_order(struct executive *executive)
+{
+    const struct executive_order *order = publish_take(&executive->publish);
+    const uint32_t every_before = executive->in_force.sample_every;
+
+    if (order == NULL) {
+        return;
+    }
+    executive->in_force = *order;
+    if (order->is_reset) {
+        executive->load = (struct executive_load){0};
+        sim_reset(&executive->sim, &executive->in_force.plan);
+    } else if (order->is_new_plan) {
+        sim_apply(&executive->sim, &executive->in_force.plan);
+    }
+    if (order->measure_steps != 0u) {
+        sim_measure(&executive->sim, order->measure_steps);
+    }
+    if (order->sample_every != every_before || order->is_reset) {
+        executive->until_sample = order->sample_every;
+    }
+    write_report(executive);
+}
+
+static uint32_t steps_due(const struct executive *executive)
+{
+    const uint32_t credit = executive->is_free != 0u ? UINT32_MAX : executive_credit(executive);
+
+    return credit < executive->in_force.substeps ? credit : executive->in_force.substeps;
+}
+
+void executive_tick(struct executive *executive, bool is_due)
+{
+    uint32_t steps;
+    bool has_news = false;
+
+    take_order(executive);
+    if (!is_due) {
+        return;
+    }
+    if (executive->skips_next) {
+        executive->skips_next = false;
+        executive->load.shed++;
+        return;
+    }
+    steps = steps_due(executive);
+    for (uint32_t i = 0u; i < steps; i++) {
+        has_news = sim_step(&executive->sim) || has_news;
+        if (executive->in_force.sample_every != 0u && --executive->until_sample == 0u) {
+            push_sample(executive);
+        }
+    }
+    if (executive->is_free == 0u) {
+        executive->used += steps;
+    }
+    executive->load.ticks++;
+    if (has_news || --executive->until_report == 0u || !executive_wants_tick(executive)) {
+        write_report(executive);
+    }
+}
+
+void executive_book(struct executive *executive, uint32_t busy, uint32_t period, bool is_late)
+{
+    struct executive_load *load = &executive->load;
+
+    load->busy_max = busy > load->busy_max ? busy : load->busy_max;
+    load->busy_sum += busy;
+    load->period = period;
+    if (is_late) {
+        load->overruns++;
+        executive->skips_next = true;
+    }
+}
+
+bool executive_is_squealing(const struct executive *executive)
+{
+    return executive->sim.detector.verdict.propensity == PROPENSITY_SQUEAL;
+}
+
+bool executive_has_order(const struct executive *executive)
+{
+    return publish_taken(&executive->publish) != executive->publish.generation;
+}
+
+static void give_order(struct executive *executive)
+{
+    struct executive_order *order = publish_back(&executive->publish);
+
+    BASE_ASSERT(order != NULL);
+    *order = executive->draft;
+    (void)publish_commit(&executive->publish);
+    executive->draft.is_reset = false;
+    executive->draft.is_new_plan = false;
+    executive->draft.measure_steps = 0u;
+}
+
+static void order_restart(struct executive *executive)
+{
+    executive_stop(executive);
+    executive->draft.is_reset = true;
+    executive->draft.is_new_plan = true;
+    executive->draft.epoch++;
+    executive->scales[executive->draft.epoch & 1u] = executive->draft.plan.scale;
+    give_order(executive);
+}
+
+struct params_problem executive_reset(struct executive *executive, const struct params *params)
+{
+    struct sim_plan plan;
+    const struct params_problem problem = sim_plan_make(&plan, params, NULL);
+
+    if (problem.error == ERROR_OK) {
+        executive->draft.plan = plan;
+        executive->draft.substeps = (uint32_t)params->steps_per_tick;
+        order_restart(executive);
+    }
+    return problem;
+}
+
+struct params_problem executive_set(struct executive *executive, const struct params *params, bool may_reset,
+                                    bool *was_reset)
+{
+    const struct params_info *moved = params_restart_change(&executive->draft.plan.params, params);
+    struct params_problem problem = params_check(params);
+    struct sim_plan plan;
+
+    if (was_reset != NULL) {
+        *was_reset = false;
+    }
+    if (problem.error != ERROR_OK) {
+        return problem;
+    }
+    if (moved != NULL) {
+        if (!may_reset) {
+            return (struct params_problem){ERROR_NEEDS_RESTART, moved, 0.0f, 0.0f};
+        }
+        problem = executive_reset(executive, params);
+        if (was_reset != NULL) {
+            *was_reset = problem.error == ERROR_OK;
+        }
+        return problem;
+    }
+    problem = sim_plan_make(&plan, params, &executive->draft.plan.scale);
+    if (problem.error == ERROR_OK) {
+        executive->draft.plan = plan;
+        executive->draft.substeps = (uint32_t)params->steps_per_tick;
+        executive->draft.is_new_plan = true;
+        give_order(executive);
+    }
+    return problem;
+}
+
+void executive_stream(struct executive *executive, uint32_t every)
+{
+    executive->draft.sample_every = every;
+    give_order(executive);
+}
+
+void executive_measure(struct executive *executive, uint64_t steps)
+{
+    executive->draft.measure_steps = steps;
+    give_order(executive);
+}
+
+void executive_grant(struct executive *executive, uint32_t steps)
+{
+    executive->granted += steps;
+}
+
+void executive_free_run(struct executive *executive)
+{
+    executive->is_free = 1u;
+}
+
+void executive_stop(struct executive *executive)
+{
+    executive->is_free = 0u;
+    executive->granted = executive->used;
+}
+
+uint32_t executive_credit(const struct executive *executive)
+{
+    const uint32_t credit = executive->granted - executive->used;
+
+    /* Taken back while the interrupt used some of it: less than nothing is nothing. */
+    return executive->is_free != 0u || credit > EXECUTIVE_GRANT_MAX ? 0u : credit;
+}
+
+bool executive_wants_tick(const struct executive *executive)
+{
+    return executive->is_free != 0u || executive_credit(executive) != 0u;
+}
+
+const struct params *executive_params(const struct executive *executive)
+{
+    return &executive->draft.plan.params;
+}
+
+const struct sim_plan *executive_plan(const struct executive *executive)
+{
+    return &executive->draft.plan;
+}
+
+void executive_report(const struct executive *executive, struct executive_report *report)
+{
+    const bool has_report = handoff_read(&executive->handoff, report);
+
+    BASE_ASSERT(has_report);
+}
+
+const struct scale *executive_scale(const struct executive *executive, uint8_t epoch)
+{
+    const uint8_t age = (uint8_t)(executive->draft.epoch - epoch);
+
+    return age <= 1u ? &executive->scales[epoch & 1u] : NULL;
+}
+
+void executive_init(struct executive *executive)
+{
+    struct params params;
+
+    memset(executive, 0, sizeof *executive);
+    publish_init(&executive->publish, executive->orders, sizeof executive->orders[0]);
+    handoff_init(&executive->handoff, &executive->report_store, sizeof executive->report_store);
+    ring_init(&executive->samples, executive->sample_store, sizeof executive->sample_store[0], EXECUTIVE_SAMPLES);
+    params_default(&params);
+    (void)executive_reset(executive, &params); /* the defaults pass their own check: tested */
+    executive_tick(executive, false);
+}

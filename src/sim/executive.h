@@ -1,0 +1,139 @@
+/* The executive: one plant between an interrupt that steps it and a main loop that talks. It knows neither timers nor
+ * wires; the program calls executive_tick() from its interrupt and the rest from main, so a test can be both.
+ *
+ *   main                                        interrupt
+ *   executive_reset/apply/... --- order ------> executive_tick: take order, step while there is credit
+ *   executive_grant, executive_free_run - words -^        |          |
+ *   executive_report  <------ latest value ---------------+          |
+ *   ring_pop(&samples) <------ ring of samples -----------------------+
+ *
+ * These are the only four ways across; each is listed in src/app/CONCURRENCY.md. */
+#ifndef SIM_EXECUTIVE_H
+#define SIM_EXECUTIVE_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "base/handoff.h"
+#include "base/ring.h"
+#include "sim/sim.h"
+
+enum {
+    EXECUTIVE_SAMPLES = 512,         /* records between interrupt and main */
+    EXECUTIVE_GRANT_MAX = 1000000000 /* steps of credit at a time */
+};
+
+/* One thing that main asks of the interrupt, whole or not at all. */
+struct executive_order {
+    struct sim_plan plan;
+    bool is_reset;          /* start again from the plan's initial state; else take it over between two steps */
+    bool is_new_plan;       /* the plan differs from the one in use */
+    uint64_t measure_steps; /* start a measurement; 0 none */
+    uint32_t sample_every;  /* steps between samples; 0 none */
+    uint32_t substeps;      /* steps a tick */
+    uint8_t epoch;          /* of the reset that this order belongs to */
+};
+
+/* What the interrupt's time went into. Clock counts are those of the program's clock. */
+struct executive_load {
+    uint32_t ticks;       /* that did their work */
+    uint32_t overruns;    /* ticks still at work when the next was due */
+    uint32_t shed;        /* ticks skipped after an overrun so that main goes on */
+    uint32_t busy_max;    /* clock counts of the longest tick */
+    uint64_t busy_sum;    /* of all ticks */
+    uint32_t period;      /* clock counts between two ticks */
+};
+
+/* What main can know: the latest state of everything. */
+struct executive_report {
+    struct sample now;
+    struct sim_counters counters;
+    struct detector_verdict verdict;
+    struct measure measure;
+    struct executive_load load;
+    bool has_v10;
+    uint64_t v10_step;
+    uint32_t v10_fraction_q15;
+    uint32_t generation; /* of the order in force */
+};
+
+struct executive {
+    struct sim sim;                      /* interrupt */
+    struct executive_load load;          /* interrupt */
+    struct executive_order in_force;     /* interrupt */
+    uint32_t until_sample, until_report; /* interrupt */
+    bool skips_next;                     /* interrupt */
+
+    struct executive_order orders[2]; /* handed over by publish */
+    struct publish publish;
+    struct executive_report report_store; /* handed over by handoff */
+    struct handoff handoff;
+    struct sample sample_store[EXECUTIVE_SAMPLES];
+    struct ring samples;
+
+    /* single words, one writer each */
+    volatile uint32_t granted; /* main: steps granted so far */
+    volatile uint32_t used;    /* interrupt: steps of it used */
+    volatile uint32_t is_free; /* main: endless credit */
+
+    /* main's own */
+    struct executive_order draft; /* last order given */
+    struct scale scales[2];       /* by epoch & 1, for samples that are still on their way */
+};
+
+/* Starts with the defaults; the plant stands at step 0 without credit. [INIT] */
+void executive_init(struct executive *executive);
+
+/* --- main --------------------------------------------------------------------------------------------------------- */
+
+/* An order given waits until the next tick, or until the program triggers one; no further order can be given before. */
+bool executive_has_order(const struct executive *executive);
+
+/* Checks a set and orders it. Where restart parameters differ from the set in use: with may_reset the plant restarts, else
+ * NEEDS_RESTART. On a problem nothing changes. *was_reset (may be NULL) tells which. [MAIN] */
+struct params_problem executive_set(struct executive *executive, const struct params *params, bool may_reset,
+                                    bool *was_reset);
+
+/* Orders a restart of a set from its initial state, credit gone. On a problem nothing changes. [MAIN] */
+struct params_problem executive_reset(struct executive *executive, const struct params *params);
+
+/* Orders samples every n steps from here on; 0 ends them. [MAIN] */
+void executive_stream(struct executive *executive, uint32_t every);
+
+/* Orders a measurement over n steps from here, without granting them. [MAIN] */
+void executive_measure(struct executive *executive, uint64_t steps);
+
+/* Credit: n more steps (at most EXECUTIVE_GRANT_MAX outstanding), endless, or none any more. [MAIN] */
+void executive_grant(struct executive *executive, uint32_t steps);
+void executive_free_run(struct executive *executive);
+void executive_stop(struct executive *executive);
+
+/* Steps of credit left; 0 in free run. [ANY] */
+uint32_t executive_credit(const struct executive *executive);
+
+/* Should the timer run? [ANY] */
+bool executive_wants_tick(const struct executive *executive);
+
+/* The set last ordered, and its plan. [MAIN] */
+const struct params *executive_params(const struct executive *executive);
+const struct sim_plan *executive_plan(const struct executive *executive);
+
+/* The latest report. [MAIN] */
+void executive_report(const struct executive *executive, struct executive_report *report);
+
+/* The scale that a sample was taken under, NULL if it is older than the reset before last. [MAIN] */
+const struct scale *executive_scale(const struct executive *executive, uint8_t epoch);
+
+/* --- interrupt ---------------------------------------------------------------------------------------------------- */
+
+/* Takes an order if there is one; if a period has passed, makes up to substeps steps. [ISR] */
+void executive_tick(struct executive *executive, bool is_due);
+
+/* Books what the tick took, in counts of the program's clock; period is that between ticks. After a late one the next
+ * tick is to be skipped: it is shed, and main gets the rest of its period. [ISR] */
+void executive_book(struct executive *executive, uint32_t busy, uint32_t period, bool is_late);
+
+/* The propensity at this step, for the pin. [ISR] */
+bool executive_is_squealing(const struct executive *executive);
+
+#endif
