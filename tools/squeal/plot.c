@@ -69,7 +69,7 @@ static void title_write(FILE *script, const struct act *act)
 
     (void)fields_text(act->verdict, "class", class, sizeof class);
     (void)fields_text(act->verdict, "frequency_hz", frequency, sizeof frequency);
-    (void)fprintf(script, "set title \"%s", plain(act->title, words));
+    (void)fprintf(script, "set title offset 0,1.3 \"%s", plain(act->title, words));
     (void)fprintf(script, "\\n{/*0.8 %s", plain(class, words));
     if (frequency[0] != '\0' && strcmp(frequency, "nan") != 0) {
         (void)fprintf(script, ", %.5g Hz", fields_number(act->verdict, "frequency_hz"));
@@ -87,7 +87,8 @@ static void picture_start(FILE *script, const struct story *story, const char *n
                   is_svg ? "svg" : "pngcairo", is_svg ? 20 : 18);
     (void)fprintf(script, "set output '%s'\n", story_path(story, path, file));
     (void)fputs("set border 3 lc rgb '#606060'\nset tics nomirror out\nset grid lc rgb '#ececec' lt 1\n"
-                "set key outside above horizontal center samplen 3\nset lmargin 12\nset rmargin 4\n",
+                "set key at graph 1,1.005 right bottom horizontal maxrows 1 samplen 2\nset lmargin 12\nset tmargin "
+                "5.5\nset rmargin 4\n",
                 script);
 }
 
@@ -250,6 +251,15 @@ static void envelope_data(FILE *script, const struct act *act, struct unit lengt
     (void)fputs("END\n", script);
 }
 
+/* A round distance of tics for a low picture of this height: about four of them. */
+static double tics_for(double height)
+{
+    const double decade = height > 0.0 ? pow(10.0, floor(log10(height / 4.0))) : 1.0;
+    const double rough = height / 4.0 / decade;
+
+    return decade * (rough > 5.0 ? 10.0 : (rough > 2.0 ? 5.0 : (rough > 1.0 ? 2.0 : 1.0)));
+}
+
 void plot_stop(struct story *story, const struct act *act)
 {
     double x_max = 0.0, v_max = 0.0;
@@ -264,24 +274,27 @@ void plot_stop(struct story *story, const struct act *act)
     }
     const struct unit length = unit_of_length(x_max);
     const struct unit speed = unit_of_speed(v_max);
+    const double start_s = act->samples[act->start].t_s;
+    const double end_s = act->samples[act->count - 1].t_s;
     envelope_data(script, act, length, speed);
     for (int i = 0; i < 2; i++) {
         picture_start(script, story, "stop-envelope", i == 0);
         bands_write(script, act);
-        (void)fprintf(script, "set xrange [%.9g:%.9g]\nset multiplot\n", act->samples[act->start].t_s,
-                      act->samples[act->count - 1].t_s);
+        (void)fprintf(script, "set xrange [%.9g:%.9g]\nset multiplot\n", start_s < 0.01 * end_s ? 0.0 : start_s, end_s);
         title_write(script, act);
         (void)fprintf(script,
                       "set origin 0,0.32\nset size 1,0.68\nset format x ''\nset ylabel 'displacement x  [%s]'\n"
                       "plot $stop using 1:2:3 with filledcurves fc rgb '" COLOUR_MOTION "' title 'x, least to most', "
+                      "$stop using 1:2 with lines lw 1 lc rgb '" COLOUR_MOTION "' notitle, "
+                      "$stop using 1:3 with lines lw 1 lc rgb '" COLOUR_MOTION "' notitle, "
                       "NaN with boxes fs solid lc rgb '" COLOUR_WATCH "' title 'watch', "
                       "NaN with boxes fs solid lc rgb '" COLOUR_SQUEAL "' title 'squeal'\n",
                       length.name);
         (void)fprintf(script,
-                      "unset title\nset origin 0,0\nset size 1,0.34\nset format x '%%g'\nset key off\n"
-                      "set xlabel 'time t  [s]'\nset ylabel 'v0  [%s]'\nset yrange [0:*]\n"
+                      "unset title\nset tmargin 1\nset origin 0,0\nset size 1,0.34\nset format x '%%g'\nset key off\n"
+                      "set xlabel 'time t  [s]'\nset ylabel 'v0  [%s]'\nset yrange [0:*]\nset ytics %.9g\n"
                       "plot $stop using 1:4 with lines lw 2.5 lc rgb '" COLOUR_DISC "'\nunset multiplot\n",
-                      speed.name);
+                      speed.name, tics_for(v_max * speed.factor));
     }
     script_close(story, script, "stop-envelope", "displacement, disc speed and verdict over the stop");
 }
