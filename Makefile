@@ -33,14 +33,16 @@ UNIT_TESTS    := $(filter-out tests/unit/platform_host.c,$(wildcard tests/unit/*
 OUT_BOARD  := build/$(BOARD)
 IMAGE      := $(OUT_BOARD)/squeal$(BOARD_SUFFIX)
 UNIT_IMAGE := $(OUT_BOARD)/unit$(BOARD_SUFFIX)
+PROBE      := $(OUT_BOARD)/probe$(BOARD_SUFFIX)
 UNIT_HOST  := build/unit/host
 TOOL       := build/tools/squeal-tool
 
 OBJECTS_IMAGE := $(SOURCES_IMAGE:%.c=$(OUT_BOARD)/%.o)
 OBJECTS_UNIT  := $(patsubst %.c,$(OUT_BOARD)/%.o,$(SOURCES) $(SOURCES_BOARD) $(UNIT_TESTS) tests/target/platform.c)
+OBJECTS_PROBE := $(patsubst %.c,$(OUT_BOARD)/%.o,$(SOURCES) $(SOURCES_BOARD) tests/target/probe.c)
 OBJECTS_HOST  := $(patsubst %.c,build/unit/%.o,$(SOURCES) $(UNIT_TESTS) tests/unit/platform_host.c)
 OBJECTS_TOOL  := $(SOURCES_TOOL:%.c=build/tools/%.o)
-OBJECTS       := $(sort $(OBJECTS_IMAGE) $(OBJECTS_UNIT) $(OBJECTS_HOST) $(OBJECTS_TOOL))
+OBJECTS       := $(sort $(OBJECTS_IMAGE) $(OBJECTS_UNIT) $(OBJECTS_PROBE) $(OBJECTS_HOST) $(OBJECTS_TOOL))
 
 # The commit's name is kept in a file that changes only when the name does.
 BUILD_ID := $(or $(shell GIT_OPTIONAL_LOCKS=0 git describe --always --dirty 2>/dev/null),unknown)
@@ -58,6 +60,7 @@ $(OUT_BOARD)/%.o: %.c
 	$(call say,CC,$@)
 	$(Q)mkdir -p $(@D)
 	$(Q)$(BOARD_CC) $(CFLAGS_BOARD) $(CFLAGS_EXTRA) -c $< -o $@
+$(OUT_BOARD)/tests/%.o: CFLAGS_EXTRA := -Itests/unit
 
 build/unit/%.o: %.c
 	$(call say,CC,$@)
@@ -79,7 +82,8 @@ $(OBJECTS): $(MAKEFILES_READ) | setup
 
 $(IMAGE): $(OBJECTS_IMAGE)
 $(UNIT_IMAGE): $(OBJECTS_UNIT)
-$(IMAGE) $(UNIT_IMAGE): $(wildcard linker/*.ld)
+$(PROBE): $(OBJECTS_PROBE)
+$(IMAGE) $(UNIT_IMAGE) $(PROBE): $(wildcard linker/*.ld)
 	$(call say,LD,$@)
 	$(Q)$(BOARD_CC) $(CFLAGS_BOARD) $(BOARD_LDFLAGS) $(filter %.o,$^) -o $@ $(BOARD_LIBS)
 
@@ -112,9 +116,9 @@ golden: $(IMAGE) $(TOOL) ## run the cases of CASES= into OUT= (ARITH= SPP= NORMA
 	$(Q)$(TOOL) golden --cases $(CASES) --out $(OUT) --spp $(SPP) --normal $(NORMAL) --arith $(ARITH) \
 	    $(if $(ASYMPTOTIC),--asymptotic) --jobs 2 -- $(COMMAND)
 
-test: $(IMAGE) $(UNIT_IMAGE) $(UNIT_HOST) $(TOOL) host-image ## run everything that a change must pass
-	$(Q)BOARD=$(BOARD) BOARD_RUN="$(BOARD_RUN)" IMAGE=$(IMAGE) UNIT_IMAGE=$(UNIT_IMAGE) UNIT_HOST=$(UNIT_HOST) \
-	    HOST_IMAGE=build/host/squeal TOOL=$(TOOL) tools/tap_summary $(wildcard tests/*.t tests/system/*.t)
+test: $(IMAGE) $(UNIT_IMAGE) $(PROBE) $(UNIT_HOST) $(TOOL) host-image ## run everything that a change must pass
+	$(Q)BOARD=$(BOARD) BOARD_RUN="$(BOARD_RUN)" IMAGE=$(IMAGE) UNIT_IMAGE=$(UNIT_IMAGE) PROBE=$(PROBE) \
+	    UNIT_HOST=$(UNIT_HOST) HOST_IMAGE=build/host/squeal TOOL=$(TOOL) tools/tap_summary $(wildcard tests/*.t tests/system/*.t)
 
 host-image: $(if $(filter host,$(BOARD)),$(IMAGE))
 ifneq ($(BOARD),host)

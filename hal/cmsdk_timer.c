@@ -16,6 +16,7 @@ static struct cmsdk_timer_block *tick;
 static struct cmsdk_timer_block *clock;
 static unsigned tick_irq;
 static uint32_t timer_hz;
+static bool has_run; /* since main was last told that it may not sleep; main's alone */
 
 void cmsdk_timer_open(const struct cmsdk_timer_wiring *wiring)
 {
@@ -34,15 +35,17 @@ void cmsdk_timer_open(const struct cmsdk_timer_wiring *wiring)
     clock->ctrl = CTRL_RUN;
 }
 
-void cmsdk_timer_hold_clock(void)
+bool cmsdk_timer_allows_sleep(void)
 {
-    clock->ctrl = 0u;
+    const bool is_allowed = !has_run;
+
+    has_run = hal_tick_is_running();
+    return is_allowed && !has_run;
 }
 
-void cmsdk_timer_resume_clock(void)
-{
-    clock->ctrl = CTRL_RUN;
-}
+void cmsdk_timer_hold_clock(void) { clock->ctrl = 0u; }
+
+void cmsdk_timer_resume_clock(void) { clock->ctrl = CTRL_RUN; }
 
 void hal_tick_start(uint32_t rate_hz)
 {
@@ -56,6 +59,7 @@ void hal_tick_start(uint32_t rate_hz)
         return;
     }
     hal_tick_stop();
+    has_run = true;
     tick->reload = reload;
     tick->value = reload;
     tick->ctrl = CTRL_RUN | CTRL_INTERRUPT;
@@ -68,15 +72,9 @@ void hal_tick_stop(void)
     nvic_unpend(tick_irq);
 }
 
-bool hal_tick_is_running(void)
-{
-    return (tick->ctrl & CTRL_RUN) != 0u;
-}
+bool hal_tick_is_running(void) { return (tick->ctrl & CTRL_RUN) != 0u; }
 
-void hal_tick_trigger(void)
-{
-    nvic_pend(tick_irq);
-}
+void hal_tick_trigger(void) { nvic_pend(tick_irq); }
 
 /* Cleared only where it was seen: a period that ends between the look and the clearing must not be lost. */
 bool hal_tick_take(void)
@@ -88,17 +86,8 @@ bool hal_tick_take(void)
     return true;
 }
 
-bool hal_tick_is_late(void)
-{
-    return (tick->interrupt & INTERRUPT_ENDED) != 0u;
-}
+bool hal_tick_is_late(void) { return (tick->interrupt & INTERRUPT_ENDED) != 0u; }
 
-uint32_t hal_clock_now(void)
-{
-    return ~clock->value;
-}
+uint32_t hal_clock_now(void) { return ~clock->value; }
 
-uint32_t hal_clock_hz(void)
-{
-    return timer_hz;
-}
+uint32_t hal_clock_hz(void) { return timer_hz; }

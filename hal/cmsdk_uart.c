@@ -36,10 +36,7 @@ struct port {
 
 static struct port ports[HAL_UART_COUNT];
 
-static struct cmsdk_uart_block *block_at(uintptr_t base)
-{
-    return (struct cmsdk_uart_block *)base;
-}
+static struct cmsdk_uart_block *block_at(uintptr_t base) { return (struct cmsdk_uart_block *)base; }
 
 static void line_on(struct cmsdk_uart_block *block, uint32_t clock_hz, uint32_t baud)
 {
@@ -121,10 +118,7 @@ void cmsdk_uart_put(const struct cmsdk_uart_wiring *wiring, char byte)
     }
 }
 
-uint32_t hal_uart_baud(enum hal_uart port)
-{
-    return ports[port].baud;
-}
+uint32_t hal_uart_baud(enum hal_uart port) { return ports[port].baud; }
 
 size_t hal_uart_write(enum hal_uart port, const void *data, size_t size)
 {
@@ -158,7 +152,4 @@ size_t hal_uart_read(enum hal_uart port, void *data, size_t size)
     return count;
 }
 
-uint32_t hal_uart_lost(enum hal_uart port)
-{
-    return ports[port].lost;
-}
+uint32_t hal_uart_lost(enum hal_uart port) { return ports[port].lost; }

@@ -29,6 +29,7 @@ static struct {
     uint32_t period_counts; /* 0: the tick is stopped */
     bool has_ended;         /* a period that the handler has not taken yet */
     bool has_ticked;        /* since main read the console last */
+    bool has_run;           /* since the last call of hal_idle() that found the tick stopped */
     uint64_t next_ns;       /* of the monotonic clock, when the next tick is due */
     uint32_t virtual_counts;
 } timer;
@@ -47,10 +48,7 @@ static uint64_t monotonic_ns(void)
     return (uint64_t)now.tv_sec * NS_PER_S + (uint64_t)now.tv_nsec;
 }
 
-static uint64_t period_ns(void)
-{
-    return (uint64_t)timer.period_counts * NS_PER_COUNT;
-}
+static uint64_t period_ns(void) { return (uint64_t)timer.period_counts * NS_PER_COUNT; }
 
 static void tick_once(bool has_ended)
 {
@@ -114,10 +112,7 @@ static bool is_stdout_ready(void)
 }
 
 /* The image's own start-up code does this on other boards; here it comes before main() as well. */
-__attribute__((constructor)) static void start_up(void)
-{
-    hal_board_init();
-}
+__attribute__((constructor)) static void start_up(void) { hal_board_init(); }
 
 void hal_board_init(void)
 {
@@ -127,25 +122,13 @@ void hal_board_init(void)
     timer.has_ticked = true;
 }
 
-const char *hal_board_name(void)
-{
-    return BOARD_NAME;
-}
+const char *hal_board_name(void) { return BOARD_NAME; }
 
-const char *hal_board_core(void)
-{
-    return BOARD_CORE;
-}
+const char *hal_board_core(void) { return BOARD_CORE; }
 
-bool hal_board_is_emulated(void)
-{
-    return false;
-}
+bool hal_board_is_emulated(void) { return false; }
 
-void hal_exit(int code)
-{
-    exit(code);
-}
+void hal_exit(int code) { exit(code); }
 
 void hal_board_panic_write(char byte)
 {
@@ -154,10 +137,7 @@ void hal_board_panic_write(char byte)
 }
 
 /* A process has no pin; the verdict is on the console too. */
-void hal_flag_set(bool is_squealing)
-{
-    (void)is_squealing;
-}
+void hal_flag_set(bool is_squealing) { (void)is_squealing; }
 
 /* Input that has ended and a main that stays idle for a while, with the tick stopped: nothing can ever happen again. */
 static void idle_stopped(void)
@@ -178,7 +158,10 @@ void hal_idle(void)
 
     timer.has_ticked = true;
     if (timer.period_counts == 0u) {
-        idle_stopped();
+        if (!timer.has_run) {
+            idle_stopped();
+        }
+        timer.has_run = false; /* The last tick may have left work behind after main's last look: one more round. */
         return;
     }
     console.quiet_rounds = 0u;
@@ -205,23 +188,15 @@ void hal_tick_start(uint32_t rate_hz)
         return;
     }
     timer.period_counts = period_counts;
+    timer.has_run = true;
     timer.next_ns = monotonic_ns() + period_ns();
 }
 
-void hal_tick_stop(void)
-{
-    timer.period_counts = 0u;
-}
+void hal_tick_stop(void) { timer.period_counts = 0u; }
 
-bool hal_tick_is_running(void)
-{
-    return timer.period_counts != 0u;
-}
+bool hal_tick_is_running(void) { return timer.period_counts != 0u; }
 
-void hal_tick_trigger(void)
-{
-    tick_once(false);
-}
+void hal_tick_trigger(void) { tick_once(false); }
 
 bool hal_tick_take(void)
 {
@@ -231,20 +206,14 @@ bool hal_tick_take(void)
     return has_ended;
 }
 
-bool hal_tick_is_late(void)
-{
-    return false;
-}
+bool hal_tick_is_late(void) { return false; }
 
 uint32_t hal_clock_now(void)
 {
     return timer.is_realtime ? (uint32_t)(monotonic_ns() / NS_PER_COUNT) : timer.virtual_counts;
 }
 
-uint32_t hal_clock_hz(void)
-{
-    return BOARD_CLOCK_HZ;
-}
+uint32_t hal_clock_hz(void) { return BOARD_CLOCK_HZ; }
 
 uint32_t hal_uart_baud(enum hal_uart port)
 {

@@ -28,9 +28,9 @@ static void link_rx_isr(void) { cmsdk_uart_rx_isr(HAL_UART_LINK); }
 static void link_tx_isr(void) { cmsdk_uart_tx_isr(HAL_UART_LINK); }
 
 static const startup_vector vectors[] STARTUP_BOARD_VECTORS = {
-    console_rx_isr,  console_tx_isr,  link_rx_isr, link_tx_isr, /* 0 to 3 */
-    STARTUP_FAULT_4,                                            /* 4 to 7 */
-    app_tick,        fault_entry,     fault_entry, fault_entry, /* 8, the tick, to 11 */
+    console_rx_isr,  console_tx_isr,  link_rx_isr,     link_tx_isr, /* 0 to 3 */
+    STARTUP_FAULT_4,                                                /* 4 to 7 */
+    app_tick,        fault_entry,     fault_entry,     fault_entry, /* 8, the tick, to 11 */
     STARTUP_FAULT_4, STARTUP_FAULT_8, STARTUP_FAULT_8, STARTUP_FAULT_8, STARTUP_FAULT_8,
 };
 BASE_STATIC_ASSERT(BASE_COUNT(vectors) == BOARD_IRQ_COUNT, a_vector_for_each_line);
@@ -45,46 +45,25 @@ void hal_board_init(void)
     nvic_unmask();
 }
 
-const char *hal_board_name(void)
-{
-    return BOARD_NAME;
-}
+const char *hal_board_name(void) { return BOARD_NAME; }
 
-const char *hal_board_core(void)
-{
-    return BOARD_CORE;
-}
+const char *hal_board_core(void) { return BOARD_CORE; }
 
-bool hal_board_is_emulated(void)
-{
-    return true;
-}
+bool hal_board_is_emulated(void) { return true; }
 
-void hal_exit(int code)
-{
-    semihosting_exit(code);
-}
+void hal_exit(int code) { semihosting_exit(code); }
 
-void hal_board_panic_write(char byte)
-{
-    cmsdk_uart_put(&console, byte);
-}
+void hal_board_panic_write(char byte) { cmsdk_uart_put(&console, byte); }
 
-void hal_flag_set(bool is_squealing)
-{
-    *(volatile uint32_t *)BOARD_LEDS_BASE = is_squealing ? 1u : 0u;
-}
+void hal_flag_set(bool is_squealing) { *(volatile uint32_t *)BOARD_LEDS_BASE = is_squealing ? 1u : 0u; }
 
 /* With the tick stopped the core may sleep, and virtual time stands still until a byte comes. The clock must stand as
  * well: a running timer is a deadline that the emulator would jump to. An interrupt that comes after the question is
  * pending and ends the sleep, although it is masked. */
 void hal_idle(void)
 {
-    if (hal_tick_is_running()) {
-        return;
-    }
     nvic_mask();
-    if (cmsdk_uart_is_quiet(HAL_UART_CONSOLE) && cmsdk_uart_is_quiet(HAL_UART_LINK)) {
+    if (cmsdk_timer_allows_sleep() && cmsdk_uart_is_quiet(HAL_UART_CONSOLE) && cmsdk_uart_is_quiet(HAL_UART_LINK)) {
         cmsdk_timer_hold_clock();
         nvic_sleep();
         cmsdk_timer_resume_clock();

@@ -1,0 +1,98 @@
+#!/bin/sh
+# The checks of the tree pass, and each of them fails on what it is there to find.
+root=$(pwd)
+work=$(mktemp -d) || exit 1
+trap 'rm -rf "$work"' EXIT
+count=0
+failed=0
+
+ok() { # name, then the command that must succeed
+    name=$1
+    shift
+    count=$((count + 1))
+    if "$@" >"$work/out" 2>&1; then
+        echo "ok $count - $name"
+    else
+        echo "not ok $count - $name"
+        sed 's/^/# /' "$work/out"
+        failed=$((failed + 1))
+    fi
+}
+
+red() { # name, text that the complaint must hold, then the command that must fail
+    name=$1
+    text=$2
+    shift 2
+    ok "$name" sh -c 'text=$1; shift; out=$("$@" 2>&1) && exit 1; echo "$out"; case $out in *"$text"*) ;; *) exit 1 ;; esac' \
+        - "$text" "$@"
+}
+
+plant() { # file, its lines: a tree with one source and nothing else
+    rm -rf "$work/tree"
+    mkdir -p "$work/tree/src/base" "$work/tree/hal" "$work/tree/boards" "$work/tree/$(dirname "$1")"
+    echo '#include <stdint.h>' >"$work/tree/src/base/clean.h"
+    printf '%b\n' "$2" >"$work/tree/$1"
+}
+
+layers() { # name, file, its lines, complaint
+    plant "$2" "$3"
+    red "layers: $1" "$4" "$root/tools/check_layers" "$work/tree"
+}
+
+ok 'layers hold' tools/check_layers
+layers 'an include against the arrow' src/model/a.c '#include "sim/b.h"' 'src/model/a.c:1: include against the arrow: sim/b.h'
+layers 'the hal below app' src/protocol/a.c '#include "hal_uart.h"' 'not for this layer: hal_uart.h'
+layers 'a board in app' src/app/a.c '#include "cortex_m/nvic.h"' 'not for this layer: cortex_m/nvic.h'
+layers 'a layer in a board' boards/a.c '#include "sim/sim.h"' 'hal and boards may include base only: sim/sim.h'
+layers 'a C library' src/sim/a.c '#include <string.h>' 'not a freestanding header: string.h'
+layers 'a relative path' src/sim/a.c '#include "../model/a.h"' 'relative include'
+layers 'volatile' src/sim/a.c '/* volatile\n * */ int a;\nvolatile int b;' 'src/sim/a.c:3: volatile or assembly'
+layers 'assembly' src/base/a.c '__asm__("nop");' 'volatile or assembly'
+plant src/sim/a.c '/* a volatile\n thing */ #include "base/clean.h"\n#include "model/a.h"\n#include <stdint.h>\nint not_volatile; // "asm"'
+ok 'layers: what is allowed passes' "$root/tools/check_layers" "$work/tree"
+red 'layers: a missing tree' 'no src' "$root/tools/check_layers" "$work"
+
+symbols() { # name, source text, complaint
+    printf '%b\n' "$2" >"$work/a.c"
+    arm-none-eabi-gcc $cpu -mthumb -O1 -ffreestanding -c "$work/a.c" -o "$work/a.o" || exit 1
+    red "symbols: $1" "$3" tools/check_symbols "$work/a.o"
+}
+
+case $IMAGE in
+*.elf) ok 'no forbidden symbol in the firmware' tools/check_symbols "$IMAGE" ;;
+esac
+cpu='-mcpu=cortex-m4 -mfpu=fpv4-sp-d16 -mfloat-abi=hard'
+symbols 'software double' 'float f(float x) { return x * 0.1; }' 'double precision: __aeabi_d2f __aeabi_dmul __aeabi_f2d'
+symbols '64-bit division' 'unsigned long long f(unsigned long long a, unsigned long long b) { return a / b; }' '64-bit division: __aeabi_uldivmod'
+symbols 'allocation and output' 'void *malloc(unsigned); int printf(const char *, ...);\nvoid *f(int n) { printf("%d", n); return malloc(n); }' 'C library: malloc printf'
+cpu='-mcpu=cortex-m7 -mfpu=fpv5-d16 -mfloat-abi=hard'
+symbols 'hardware double' 'double f(double x) { return x * x; }' 'double precision: '
+red 'symbols: a missing file' 'none.elf' tools/check_symbols "$work/none.elf"
+
+ok 'documents hold' tools/check_docs
+cp Makefile "$work"
+echo 'See [here](nowhere.md).' >"$work/a.md"
+red 'documents: a dead link' 'no such file: nowhere.md' "$root/tools/check_docs" "$work"
+echo 'Type `make coffee`, then `make test`.' >"$work/a.md"
+red 'documents: an unknown target' 'no such target: make coffee' "$root/tools/check_docs" "$work"
+
+summary() { # name, last line, then the commands that make a test script
+    printf '#!/bin/sh\n%s\n' "$3" >"$work/a.t"
+    chmod +x "$work/a.t"
+    ok "summary: $1" sh -c 'out=$(tools/tap_summary "$1" 2>&1); code=$?; echo "$out"
+        [ "$(echo "$out" | tail -n 1)" = "$2" ] && { [ $code = 0 ] && good=yes || good=no; [ $good = "$3" ]; }' \
+        - "$work/a.t" "$2" "${4:-no}"
+}
+
+summary 'passed' '2 passed, 0 failed' 'echo "ok 1"; echo "ok 2"; echo "1..2"' yes
+summary 'a failure' '1 passed, 1 failed' 'echo "ok 1"; echo "not ok 2"; echo "1..2"; exit 1'
+summary 'a crash after all passed' '2 passed, 1 failed' 'echo "1..2"; echo "ok 1"; echo "ok 2"; kill -SEGV $$'
+summary 'a missing plan' '1 passed, 1 failed' 'echo "ok 1"'
+summary 'a broken plan' '1 passed, 1 failed' 'echo "1..3"; echo "ok 1"'
+summary 'no output' '0 passed, 1 failed' ':'
+summary 'a missing tool' '0 passed, 1 failed' 'exec no-such-tool-here'
+summary 'a skipped test' '1 passed, 1 failed' 'echo "1..2"; echo "ok 1"; echo "ok 2 # SKIP no tool"'
+summary 'a skipped script' '0 passed, 1 failed' 'echo "1..0 # SKIP no tool"'
+
+echo "1..$count"
+exit "$failed"
