@@ -118,6 +118,12 @@ static float transient_speed(const struct params *params, const struct scale *sc
     return hypotenuse(z * offset, params->xd_initial_m_per_s / scale->speed_m_per_s);
 }
 
+/* Damping takes the free normal oscillation away; a pad that is let go without load does not come back. */
+static bool normal_motion_ends(const struct params *params, const struct scale *scale, const struct finish *finish)
+{
+    return scale->normal_damping > 0.0f || (finish->load == 0.0f && (int)params->contact == CONTACT_LIFT);
+}
+
 static enum predictor_verdict judge(const struct prediction *prediction, const struct finish *finish)
 {
     if (finish->speed == 0.0f) {
@@ -135,7 +141,7 @@ struct prediction predictor_predict(const struct params *params, const struct sc
     const struct finish finish = find_finish(params, scale);
     const struct predictor_response response = predictor_response(params, scale);
     const float onset = onset_amplitude(params, scale);
-    const float lasting = scale->normal_damping > 0.0f ? 0.0f : onset;
+    const float lasting = normal_motion_ends(params, scale, &finish) ? 0.0f : onset;
     const float share = finish.load > 0.0f ? lasting / finish.load : 0.0f;
     const float forced = finish.friction * transfer(scale, scale->damping + finish.slope, 1.0f);
     struct prediction prediction;

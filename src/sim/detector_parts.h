@@ -10,6 +10,7 @@ struct detector_window {
     uint32_t speed;  /* half the range of v, Q4.27 */
     uint32_t floor;  /* speeds below it are no motion worth a verdict */
     uint32_t forced; /* speed that the normal oscillation explains */
+    uint32_t normal; /* half the range of w, the normal velocity, in the newest frame */
     bool has_events; /* sticks or crosses now and then, but not always */
 };
 

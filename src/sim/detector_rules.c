@@ -3,7 +3,7 @@
 #include "sim/detector_parts.h"
 
 enum {
-    NOISE_SUM = 1 << 12,     /* squared changes of a frame below this are rounding */
+    NOISE_SUM = 1 << 18,     /* squared changes of a frame below this are rounding */
     GROWTH_LEAST_Q16 = 38,   /* 5e-5 a period: slower than this is no growth */
     EVIDENCE_GAIN = 4,       /* a frame with squeal */
     EVIDENCE_ENTER = 12,     /* three frames */
@@ -35,10 +35,15 @@ void detector_rules_measure(struct detector *detector)
 
     verdict->variance = detector->v_square_sum >> shift;
     verdict->variance -= verdict->variance > (uint64_t)(mean * mean) ? (uint64_t)(mean * mean) : verdict->variance;
+    if (detector->frame == 1u) {
+        /* The first two strobes have no second difference: six stand for eight. */
+        detector->change_sum += (detector->change_sum >> 2) + (detector->change_sum >> 4) + (detector->change_sum >> 6);
+    }
     frame->change_log2_q16 = detector->change_sum >= NOISE_SUM ? fixed_log2_q16(detector->change_sum) : -1;
 }
 
-/* Straight line through the logarithms of the last four frames: its slope, and the largest distance from it as error. */
+/* Straight line through the logarithms of the last four frames: its slope, and as error twice the largest distance from
+ * it, which noise alone rarely exceeds. */
 static void fit_growth(struct detector *detector)
 {
     struct detector_verdict *verdict = &detector->verdict;
@@ -64,7 +69,7 @@ static void fit_growth(struct detector *detector)
         worst = distance > worst ? distance : worst;
     }
     verdict->growth_q16 = verdict->has_growth ? slope : 0;
-    verdict->growth_error_q16 = verdict->has_growth ? worst : 0;
+    verdict->growth_error_q16 = verdict->has_growth ? 2 * worst : 0;
 }
 
 static void widen(struct detector_verdict *verdict, const struct detector_frame *frame)
@@ -138,10 +143,16 @@ static uint32_t motion_floor(int32_t disc)
     return part > FLOOR_MIN ? part : FLOOR_MIN;
 }
 
+/* Half the range of the normal velocity. */
+static uint32_t normal_speed(const struct detector_frame *frame)
+{
+    return (uint32_t)(((int64_t)frame->w_max - frame->w_min) / 2);
+}
+
 /* Speed that the normal motion present in y explains: the load's sine by its own response, the rest as free oscillation. */
 static uint32_t forced_speed(const struct detector *detector, const struct detector_frame *frame)
 {
-    const uint32_t normal = (uint32_t)(((int64_t)frame->w_max - frame->w_min) / 2);
+    const uint32_t normal = normal_speed(frame);
     const uint32_t from_load = (uint32_t)detector->config.load_speed;
     const uint32_t free = normal > from_load ? normal - from_load : 0u;
     const uint64_t speed = (((uint64_t)free * detector->config.gain_q16) >> 16) + (uint32_t)detector->config.load_response;
@@ -158,6 +169,7 @@ struct detector_window detector_rules_window(const struct detector *detector)
     window.speed = (uint32_t)(((int64_t)verdict->v_max - verdict->v_min) / 2);
     window.floor = motion_floor(verdict->disc);
     window.forced = forced_speed(detector, newest);
+    window.normal = normal_speed(newest);
     window.has_events = has_events(detector, newest);
     return window;
 }
@@ -174,10 +186,11 @@ static bool is_growing(const struct detector_verdict *verdict)
            verdict->growth_q16 > verdict->growth_error_q16;
 }
 
-/* More motion than the normal oscillation explains, and it does not die out. */
-static bool is_self_excited(const struct detector_verdict *verdict, const struct detector_window *window)
+/* More motion than the normal oscillation explains, and it does not die out; that takes a full window to know. */
+static bool is_self_excited(const struct detector *detector, const struct detector_window *window)
 {
-    return window->speed > window->forced + window->forced / 2u + 2u * window->floor && !is_decaying(verdict);
+    return detector->frame >= DETECTOR_WINDOW_FRAMES && window->speed > window->forced + window->forced / 2u + 2u * window->floor &&
+           !is_decaying(&detector->verdict);
 }
 
 static uint8_t propensity(const struct detector *detector, const struct detector_window *window)
@@ -205,7 +218,7 @@ void detector_rules_judge(struct detector *detector)
     gather_window(detector);
     fit_growth(detector);
     window = detector_rules_window(detector);
-    if (window.speed > window.floor && (window.has_events || is_self_excited(&detector->verdict, &window))) {
+    if (window.speed > window.floor && (window.has_events || is_self_excited(detector, &window))) {
         detector->evidence += EVIDENCE_GAIN;
         detector->evidence = detector->evidence < EVIDENCE_MAX ? detector->evidence : EVIDENCE_MAX;
     } else if (detector->evidence > 0u) {

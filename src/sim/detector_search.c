@@ -10,7 +10,9 @@ enum {
     PAIRS_PER_STEP = 8,     /* two comparisons each */
     TOLERANCE_SHIFT = 10,   /* of the range: 1e-3 */
     INTERVAL_SHIFT = 8,     /* of the interval between maxima: 4e-3 */
-    AUTONOMOUS_RATIO = 8    /* the normal oscillation explains less than an eighth: the pad keeps its own time */
+    SPIRAL_LEAST_Q16 = 76,  /* growth of 1e-4 a period */
+    AUTONOMOUS_RATIO = 8,   /* the normal oscillation explains less than an eighth: the pad may keep its own time */
+    NORMAL_SILENT = 1 << 19 /* normal speed below 1/256: nothing that could set the clock */
 };
 
 static void finish(struct detector *detector, enum detector_class motion, uint32_t period)
@@ -46,24 +48,48 @@ static bool is_autonomous(const struct detector_window *window)
     return (uint64_t)window->forced * AUTONOMOUS_RATIO < window->speed;
 }
 
-void detector_search_start(struct detector *detector, const struct detector_window *window)
+static void begin(struct detector *detector, enum detector_stage stage)
 {
-    const bool by_peaks = is_autonomous(window);
-
+    detector->search.stage = (uint8_t)stage;
     detector->search.period = 1u;
     detector->search.index = 0u;
-    detector->search.head = by_peaks ? detector->peaks : detector->strobes;
+    detector->search.head = stage == STAGE_PEAKS ? detector->peaks : detector->strobes;
+}
+
+/* Looks for a period in the maxima of x, if there are enough of them. */
+static void begin_peaks(struct detector *detector, const struct detector_window *window)
+{
+    if (detector->peaks > PEAKS_COMPARED) {
+        begin(detector, STAGE_PEAKS);
+    } else {
+        finish_without_period(detector, window);
+    }
+}
+
+void detector_search_start(struct detector *detector, const struct detector_window *window)
+{
     if (detector->frame < DETECTOR_WINDOW_FRAMES) {
         finish(detector, CLASS_UNSETTLED, 0u);
     } else if (window->speed <= window->floor) {
         finish(detector, CLASS_REST, 0u);
-    } else if (by_peaks ? detector->peaks <= PEAKS_COMPARED : detector->strobes < STROBES_COMPARED) {
-        finish_without_period(detector, window);
-        if (detector->verdict.motion == CLASS_APERIODIC) {
-            detector->verdict.motion = CLASS_UNSETTLED;
-        }
+    } else if (is_autonomous(window) && window->normal < NORMAL_SILENT) {
+        begin_peaks(detector, window);
+    } else if (detector->strobes >= STROBES_COMPARED) {
+        begin(detector, STAGE_STROBES);
     } else {
-        detector->search.stage = by_peaks ? STAGE_PEAKS : STAGE_STROBES;
+        finish(detector, CLASS_UNSETTLED, 0u);
+    }
+}
+
+/* No period among those tried in this stage. */
+static void give_up(struct detector *detector)
+{
+    const struct detector_window window = detector_rules_window(detector);
+
+    if (detector->search.stage == STAGE_STROBES && is_autonomous(&window)) {
+        begin_peaks(detector, &window);
+    } else {
+        finish_without_period(detector, &window);
     }
 }
 
@@ -99,22 +125,23 @@ static bool peaks_differ(const struct detector *detector, uint32_t newer, uint32
            differs((int32_t)interval_a, (int32_t)interval_b, interval_a >> INTERVAL_SHIFT);
 }
 
+/* A slow spiral repeats nearly; its growth gives it away. */
+static bool is_spiral(const struct detector_verdict *verdict)
+{
+    const uint32_t growth = fixed_abs(verdict->growth_q16);
+
+    return verdict->has_growth && growth > SPIRAL_LEAST_Q16 && growth > (uint32_t)verdict->growth_error_q16;
+}
+
 /* Names a motion that repeats after period strobes or maxima. */
 static void finish_with_period(struct detector *detector, const struct detector_window *window)
 {
     const uint32_t period = detector->search.period;
 
     if (detector->search.stage == STAGE_PEAKS) {
-        if (!window->has_events) {
-            const int32_t growth = detector->verdict.growth_q16;
-            const int32_t error = detector->verdict.growth_error_q16;
-
-            /* A slow spiral repeats nearly. */
-            if (detector->verdict.has_growth && (growth > error + error || growth < -error - error) &&
-                fixed_abs(growth) > 76u) {
-                finish_without_period(detector, window);
-                return;
-            }
+        if (!window->has_events && is_spiral(&detector->verdict)) {
+            finish_without_period(detector, window);
+            return;
         }
         finish(detector, window->has_events ? CLASS_LIMITCYCLE_STICKSLIP : CLASS_LIMITCYCLE_SLIP, period);
     } else if (!window->has_events) {
@@ -139,9 +166,7 @@ void detector_search_continue(struct detector *detector)
             search->index = 0u;
             search->period++;
             if (search->period > (by_peaks ? PEAK_PERIOD_MAX : DETECTOR_PERIOD_MAX)) {
-                const struct detector_window window = detector_rules_window(detector);
-
-                finish_without_period(detector, &window);
+                give_up(detector);
                 return;
             }
         } else if (++search->index + search->period >= compared) {
