@@ -36,7 +36,8 @@ static void pump_input(void)
     input.taken += console_receive(&console, input.bytes + input.taken, input.size - input.taken);
 }
 
-static void pump_output(void)
+/* Returns true when all is sent. The UART is not asked to interrupt for more: main must not sleep before. */
+static bool pump_output(void)
 {
     size_t size;
     const uint8_t *bytes = text_peek(&output, &size);
@@ -44,6 +45,8 @@ static void pump_output(void)
     if (size > 0u) {
         text_drop(&output, hal_uart_write(HAL_UART_CONSOLE, bytes, size));
     }
+    (void)text_peek(&output, &size);
+    return size == 0u;
 }
 
 static void tell_console_the_ticks(void)
@@ -76,7 +79,8 @@ int main(void)
         console_poll(&console);
         isr_follow();
         console_poll(&console);
-        pump_output();
-        hal_idle();
+        if (pump_output()) {
+            hal_idle();
+        }
     }
 }
