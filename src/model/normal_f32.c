@@ -53,6 +53,12 @@ void normal_f32_configure(struct normal_f32_coeffs *coeffs, const struct params 
     coeffs->half = make_map(scale->normal_damping, 0.5f * scale->step);
 }
 
+/* Printed, the contact pulls where y < 0; the other modes know no pull, and neither does the rounding of a touch at 0. */
+static float least_force(const struct normal_f32 *normal, const struct normal_f32_coeffs *coeffs)
+{
+    return coeffs->contact == CONTACT_BILATERAL && !normal->is_steady_from_rest ? -1e30f : 0.0f;
+}
+
 void normal_f32_reset(struct normal_f32 *normal, const struct normal_f32_coeffs *coeffs, float y, float w, float n)
 {
     normal->y = y;
@@ -63,6 +69,7 @@ void normal_f32_reset(struct normal_f32 *normal, const struct normal_f32_coeffs 
     normal->phase = 0u;
     normal->is_lifted = coeffs->contact == CONTACT_LIFT && (y < 0.0f || (y == 0.0f && w < 0.0f));
     normal->is_steady_from_rest = y == 0.0f && w == 0.0f && n >= 0.0f;
+    normal->least_force = least_force(normal, coeffs);
 }
 
 void normal_f32_set_load(struct normal_f32 *normal, const struct normal_f32_coeffs *coeffs, float n)
@@ -71,6 +78,7 @@ void normal_f32_set_load(struct normal_f32 *normal, const struct normal_f32_coef
 
     normal->n = n;
     normal->is_steady_from_rest = false;
+    normal->least_force = least_force(normal, coeffs);
     if (coeffs->has_phase) {
         normal->cosine -= change * sine_cosine_f32(normal->phase);
         normal->sine -= change * sine_f32(normal->phase);
@@ -98,10 +106,10 @@ static void look_rk4(const struct normal_f32 *normal, const struct normal_f32_co
 
     piece->y = y1 + sixth * (w1 + 2.0f * (w2 + w3) + w4);
     piece->w = w1 + sixth * (a1 + 2.0f * (a2 + a3) + a4);
-    piece->p1 = normal_f32_force(normal, coeffs, y1);
-    piece->p2 = normal_f32_force(normal, coeffs, y2);
-    piece->p3 = normal_f32_force(normal, coeffs, y3);
-    piece->p4 = normal_f32_force(normal, coeffs, y4);
+    piece->p1 = normal_f32_force(normal, y1);
+    piece->p2 = normal_f32_force(normal, y2);
+    piece->p3 = normal_f32_force(normal, y3);
+    piece->p4 = normal_f32_force(normal, y4);
 }
 
 static void look_exact(const struct normal_f32 *normal, const struct normal_f32_coeffs *coeffs, float duration,
@@ -124,10 +132,10 @@ static void look_exact(const struct normal_f32 *normal, const struct normal_f32_
         taylor(coeffs->damping, spring, normal->n, 0.5f * duration, &middle_y, &middle_w);
         taylor(coeffs->damping, spring, normal->n, duration, &piece->y, &piece->w);
     }
-    piece->p1 = normal_f32_force(normal, coeffs, normal->y);
-    piece->p2 = normal_f32_force(normal, coeffs, middle_y);
+    piece->p1 = normal_f32_force(normal, normal->y);
+    piece->p2 = normal_f32_force(normal, middle_y);
     piece->p3 = piece->p2;
-    piece->p4 = normal_f32_force(normal, coeffs, piece->y);
+    piece->p4 = normal_f32_force(normal, piece->y);
 }
 
 void normal_f32_look(const struct normal_f32 *normal, const struct normal_f32_coeffs *coeffs, float duration,

@@ -30,6 +30,7 @@ struct normal_f32 {
     float n;    /* brake force held over the present step */
     float cosine, sine; /* y = n + cosine cos(phase) + sine sin(phase), where has_phase */
     uint32_t phase;
+    float least_force;  /* the contact force is y, but never less than this: 0, or far below all y where it may pull */
     bool is_lifted;     /* spring off: contact lift and y < 0 */
     bool is_steady_from_rest; /* from rest under a force that never changed: y >= 0 but for rounding */
 };
@@ -64,13 +65,10 @@ static inline void normal_f32_move(struct normal_f32 *normal, const struct norma
  * gap was held. */
 bool normal_f32_close_step(struct normal_f32 *normal, const struct normal_f32_coeffs *coeffs);
 
-/* Contact force of a displacement. */
-static inline float normal_f32_force(const struct normal_f32 *normal, const struct normal_f32_coeffs *coeffs, float y)
+/* Contact force of a displacement. A lifted pad has y < 0 and a least force of 0. */
+static inline float normal_f32_force(const struct normal_f32 *normal, float y)
 {
-    if (normal->is_lifted) {
-        return 0.0f;
-    }
-    return y < 0.0f && (coeffs->contact != CONTACT_BILATERAL || normal->is_steady_from_rest) ? 0.0f : y;
+    return y < normal->least_force ? normal->least_force : y;
 }
 
 #endif

@@ -7,6 +7,7 @@
 
 #define DISPLACEMENT_MAX 4096.0f /* beyond it the plant has left its domain; in the model's units */
 #define NORMAL_MAX 64.0f
+#define OUTPUT_MAX 15.9999990f /* the largest that Q4.27 holds */
 
 /* What is left of the step, and what of it is to be reported. */
 struct progress {
@@ -17,9 +18,9 @@ struct progress {
     bool is_capped, is_lifted;
 };
 
-/* End of one slip piece: position, velocity, acceleration. */
+/* End of one slip piece. */
 struct slip_end {
-    float x, v, acceleration;
+    float x, v;
 };
 
 static float signed_by(int8_t sign, float value)
@@ -27,43 +28,59 @@ static float signed_by(int8_t sign, float value)
     return sign < 0 ? -value : value;
 }
 
-/* x'' in slip with the sign of vr given. Mirrored states give mirrored bits. */
-BASE_INLINE float acceleration(const struct step_f32_coeffs *c, float disc, int8_t sign, float x, float v, float p)
+/* Signed friction coefficient at speed v while slipping to the side sign: s mu(|vr|) = s mu + eps vr, not below the floor.
+ * Mirrored states give mirrored bits. */
+BASE_INLINE float signed_friction(const struct step_f32_coeffs *c, float disc, int8_t sign, float v, bool has_floor)
 {
-    float mu = c->friction + c->slope * signed_by(sign, disc - v);
+    const float signed_mu = signed_by(sign, c->friction) + c->slope * (disc - v);
 
-    if (c->has_floor && mu < c->floor) {
-        mu = c->floor;
-    }
-    return signed_by(sign, mu) * p - c->damping * v - c->stiffness * x;
+    return has_floor && signed_by(sign, signed_mu) < c->floor ? signed_by(sign, c->floor) : signed_mu;
 }
 
-/* RK4 over one piece; the fourth-order combination is formed term by term so that its fixed-point twin cannot overflow. */
-BASE_INLINE float slip_start(const struct step_f32 *s, const struct step_f32_coeffs *c,
-                             const struct normal_f32_piece *piece)
+BASE_INLINE float acceleration_at(const struct step_f32_coeffs *c, float disc, int8_t sign, float x, float v, float p,
+                                  bool has_floor)
 {
-    return acceleration(c, s->disc, s->mode, s->x, s->v, piece->p1);
+    return signed_friction(c, disc, sign, v, has_floor) * p - c->damping * v - c->stiffness * x;
 }
 
-static void slip(const struct step_f32 *s, const struct step_f32_coeffs *c, const struct normal_f32_piece *piece,
-                 float duration, float a1, struct slip_end *end)
+/* x'' in slip with the sign of vr given. */
+static float acceleration(const struct step_f32_coeffs *c, float disc, int8_t sign, float x, float v, float p)
+{
+    return acceleration_at(c, disc, sign, x, v, p, c->has_floor);
+}
+
+/* RK4 over one piece, from the acceleration at its start. */
+BASE_INLINE void slip_as(const struct step_f32 *s, const struct step_f32_coeffs *c, const struct normal_f32_piece *piece,
+                         float duration, float a1, struct slip_end *end, bool has_floor)
 {
     const float half = 0.5f * duration;
     const float sixth = duration * (1.0f / 6.0f);
     const float disc = s->disc;
     const int8_t sign = s->mode;
-    const float x2 = s->x + half * s->v;
-    const float v2 = s->v + half * a1;
-    const float a2 = acceleration(c, disc, sign, x2, v2, piece->p2);
-    const float x3 = s->x + half * v2;
-    const float v3 = s->v + half * a2;
-    const float a3 = acceleration(c, disc, sign, x3, v3, piece->p3);
-    const float x4 = s->x + duration * v3;
-    const float v4 = s->v + duration * a3;
-    const float a4 = acceleration(c, disc, sign, x4, v4, piece->p4);
+    const float x1 = s->x;
+    const float v1 = s->v;
+    const float x2 = x1 + half * v1;
+    const float v2 = v1 + half * a1;
+    const float a2 = acceleration_at(c, disc, sign, x2, v2, piece->p2, has_floor);
+    const float x3 = x1 + half * v2;
+    const float v3 = v1 + half * a2;
+    const float a3 = acceleration_at(c, disc, sign, x3, v3, piece->p3, has_floor);
+    const float x4 = x1 + duration * v3;
+    const float v4 = v1 + duration * a3;
+    const float a4 = acceleration_at(c, disc, sign, x4, v4, piece->p4, has_floor);
 
-    end->x = s->x + sixth * (s->v + 2.0f * (v2 + v3) + v4);
-    end->v = s->v + sixth * (a1 + 2.0f * (a2 + a3) + a4);
+    end->x = x1 + sixth * (v1 + 2.0f * (v2 + v3) + v4);
+    end->v = v1 + sixth * (a1 + 2.0f * (a2 + a3) + a4);
+}
+
+static void slip(const struct step_f32 *s, const struct step_f32_coeffs *c, const struct normal_f32_piece *piece,
+                 float duration, float a1, struct slip_end *end)
+{
+    if (c->has_floor) {
+        slip_as(s, c, piece, duration, a1, end, true);
+    } else {
+        slip_as(s, c, piece, duration, a1, end, false);
+    }
 }
 
 /* At vr = 0 the pad sticks if friction can hold it; otherwise it slips to the side that the need pulls it to. The same
@@ -71,7 +88,7 @@ static void slip(const struct step_f32 *s, const struct step_f32_coeffs *c, cons
 static int8_t regime_at_rest(const struct step_f32 *s, const struct step_f32_coeffs *c, float extra)
 {
     const float need = c->damping * s->disc + c->stiffness * s->x + extra;
-    const float limit = c->friction * normal_f32_force(&s->normal, &c->normal, s->normal.y);
+    const float limit = c->friction * normal_f32_force(&s->normal, s->normal.y);
 
     if (need <= limit && -need <= limit) {
         return PLANT_STICK;
@@ -126,7 +143,7 @@ static float find_crossing(const struct step_f32 *s, const struct step_f32_coeff
     if (f1 >= 0.0f && (d0 >= 0.0f || f0 + d0 > 0.0f || f0 <= 0.0f)) {
         return -1.0f;
     }
-    p_end = normal_f32_force(&s->normal, &c->normal, piece->y);
+    p_end = normal_f32_force(&s->normal, piece->y);
     d1 = -signed_by(s->mode, acceleration(c, s->disc, s->mode, end->x, end->v, p_end)) * duration;
     vr = hermite_f32_make(f0, d0, f1, d1);
     if (f1 >= 0.0f) {
@@ -147,7 +164,7 @@ static float find_crossing(const struct step_f32 *s, const struct step_f32_coeff
 static void slip_piece(struct step_f32 *s, const struct step_f32_coeffs *c, struct progress *progress,
                        struct normal_f32_piece *piece, float duration)
 {
-    const float a1 = slip_start(s, c, piece);
+    const float a1 = acceleration(c, s->disc, s->mode, s->x, s->v, piece->p1);
     struct slip_end end;
     float place;
 
@@ -177,9 +194,9 @@ static void slip_piece(struct step_f32 *s, const struct step_f32_coeffs *c, stru
 }
 
 /* Slope of the contact force with time: 0 where the force is held at 0. */
-static float force_rate(const struct normal_f32 *normal, const struct normal_f32_coeffs *c, float y, float w)
+static float force_rate(const struct normal_f32 *normal, float y, float w)
 {
-    return normal_f32_force(normal, c, y) == y ? w : 0.0f;
+    return normal_f32_force(normal, y) == y ? w : 0.0f;
 }
 
 static void stick_piece(struct step_f32 *s, const struct step_f32_coeffs *c, struct progress *progress,
@@ -188,7 +205,7 @@ static void stick_piece(struct step_f32 *s, const struct step_f32_coeffs *c, str
     const float x_end = s->x + s->disc * duration;
     const float need_end = c->damping * s->disc + c->stiffness * x_end;
     const int8_t side = need_end > 0.0f ? PLANT_SLIP_PLUS : PLANT_SLIP_MINUS;
-    const float spare_end = c->friction * normal_f32_force(&s->normal, &c->normal, piece->y) - signed_by(side, need_end);
+    const float spare_end = c->friction * normal_f32_force(&s->normal, piece->y) - signed_by(side, need_end);
     float need_start;
     float spare_start;
     float part = 0.0f;
@@ -204,8 +221,8 @@ static void stick_piece(struct step_f32 *s, const struct step_f32_coeffs *c, str
     spare_start = c->friction * piece->p1 - signed_by(side, need_start);
     if (spare_start > 0.0f) {
         const float pull = signed_by(side, c->stiffness * s->disc);
-        const float rate_start = c->friction * force_rate(&s->normal, &c->normal, s->normal.y, s->normal.w) - pull;
-        const float rate_end = c->friction * force_rate(&s->normal, &c->normal, piece->y, piece->w) - pull;
+        const float rate_start = c->friction * force_rate(&s->normal, s->normal.y, s->normal.w) - pull;
+        const float rate_end = c->friction * force_rate(&s->normal, piece->y, piece->w) - pull;
         const struct hermite_f32 spare =
             hermite_f32_make(spare_start, rate_start * duration, spare_end, rate_end * duration);
 
@@ -319,11 +336,9 @@ static void naive_step(struct step_f32 *s, const struct step_f32_coeffs *c, stru
 /* Q4.27, saturating; a NaN comes out as 0 and is flagged. */
 static int32_t to_q27(float value, bool *is_saturated)
 {
-    const float limit = 15.9999990f;
-
-    if (!(value <= limit && value >= -limit)) {
+    if (!(value <= OUTPUT_MAX && value >= -OUTPUT_MAX)) {
         *is_saturated = true;
-        return value > limit ? INT32_MAX : value < -limit ? -INT32_MAX : 0;
+        return value > OUTPUT_MAX ? INT32_MAX : value < -OUTPUT_MAX ? -INT32_MAX : 0;
     }
     return (int32_t)(value * (float)(1 << PLANT_FRACTION_BITS));
 }
@@ -405,7 +420,7 @@ void step_f32_advance(struct step_f32 *state, const struct step_f32_coeffs *coef
 
 float step_f32_friction(const struct step_f32 *state, const struct step_f32_coeffs *coeffs)
 {
-    const float p = normal_f32_force(&state->normal, &coeffs->normal, state->normal.y);
+    const float p = normal_f32_force(&state->normal, state->normal.y);
 
     if (state->mode == PLANT_STICK) {
         return coeffs->damping * state->v + coeffs->stiffness * state->x;

@@ -3,7 +3,7 @@
 #include "sim/detector_parts.h"
 
 enum {
-    NOISE_SUM = 1 << 18,     /* squared changes of a frame below this are rounding */
+    NOISE_SUM = 1 << 20,     /* squared changes of a frame below this are rounding */
     GROWTH_LEAST_Q16 = 38,   /* 5e-5 a period: slower than this is no growth */
     EVIDENCE_GAIN = 4,       /* a frame with squeal */
     EVIDENCE_ENTER = 12,     /* three frames */

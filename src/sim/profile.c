@@ -55,9 +55,9 @@ static float ramp_value(const struct profile *profile, uint64_t step)
     return position > 0.0f ? profile->from + (profile->to - profile->from) * position : profile->from;
 }
 
-float profile_value(const struct profile *profile, uint64_t step)
+float profile_moving_value(const struct profile *profile, uint64_t step)
 {
-    if (profile->kind == PROFILE_CONSTANT || (step < profile->start && profile->kind != PROFILE_SINE)) {
+    if (step < profile->start) {
         return profile->from;
     }
     switch (profile->kind) {
@@ -66,8 +66,7 @@ float profile_value(const struct profile *profile, uint64_t step)
     case PROFILE_SINE: {
         const uint64_t turns = step * profile->turns_per_step + (profile->turns_per_step >> 1);
 
-        return step < profile->start ? profile->from
-                                     : profile->from + profile->to * fmath_sine_turns((uint32_t)(turns >> 32));
+        return profile->from + profile->to * fmath_sine_turns((uint32_t)(turns >> 32));
     }
     case PROFILE_CONSTANT:
     case PROFILE_STEP:

@@ -24,8 +24,14 @@ struct profile {
 void profile_load(struct profile *profile, const struct params *params, const struct scale *scale);
 void profile_speed(struct profile *profile, const struct params *params, const struct scale *scale);
 
+/* Value of a profile that is not constant. */
+float profile_moving_value(const struct profile *profile, uint64_t step);
+
 /* Value held over the given step. Same bits everywhere. [ISR, pure] */
-float profile_value(const struct profile *profile, uint64_t step);
+static inline float profile_value(const struct profile *profile, uint64_t step)
+{
+    return profile->kind == PROFILE_CONSTANT ? profile->from : profile_moving_value(profile, step);
+}
 
 /* Does the value still move at this step or later, other than by a sine? [ANY] */
 bool profile_is_moving(const struct profile *profile, uint64_t step);
