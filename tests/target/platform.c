@@ -144,6 +144,7 @@ static void test_late(void)
     tick.stop_after = 4u;
     wait_for_calls(4u);
     (void)tap_check(tick.late == 2u, "a handler longer than its period is told so");
+    (void)tap_check(tick.calls == 4u, "and its stop drops the tick that waits already");
 }
 
 static void test_board(void)
