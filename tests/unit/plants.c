@@ -1,0 +1,100 @@
+/* Plants for tests. */
+#include "plants.h"
+
+#include "base/assert.h"
+#include "base/fmath.h"
+#include "model/presets.h"
+#include "tap.h"
+
+static uint32_t length_of(const char *text)
+{
+    uint32_t length = 0u;
+
+    while (text[length] != '\0') {
+        length++;
+    }
+    return length;
+}
+
+static void assign(struct params *params, const char *assignments)
+{
+    const struct params_info *info;
+    const char *bad;
+    size_t bad_length;
+
+    const enum error error = presets_assign(params, assignments, &info, &bad, &bad_length);
+
+    BASE_ASSERT(error == ERROR_OK);
+}
+
+struct params plants_params(const char *assignments)
+{
+    struct params params;
+
+    params_default(&params);
+    assign(&params, assignments);
+    return params;
+}
+
+struct params plants_preset(const char *name, const char *assignments)
+{
+    const struct preset *preset = presets_find(name, length_of(name));
+    struct params params;
+
+    BASE_ASSERT(preset != NULL);
+    presets_load(preset, &params);
+    assign(&params, assignments);
+    return params;
+}
+
+void plants_plan(struct sim_plan *plan, const struct params *params)
+{
+    const struct params_problem problem = sim_plan_make(plan, params, NULL);
+
+    BASE_ASSERT(problem.error == ERROR_OK);
+}
+
+static void start(struct plant *plant, struct params params)
+{
+    plants_plan(&plant->plan, &params);
+    sim_reset(&plant->sim, &plant->plan);
+}
+
+void plants_start(struct plant *plant, const char *assignments) { start(plant, plants_params(assignments)); }
+
+void plants_start_preset(struct plant *plant, const char *name, const char *assignments)
+{
+    start(plant, plants_preset(name, assignments));
+}
+
+void plants_run_steps(struct plant *plant, uint32_t steps)
+{
+    for (uint32_t i = 0u; i < steps; i++) {
+        (void)sim_step(&plant->sim);
+    }
+}
+
+void plants_run_periods(struct plant *plant, uint32_t periods)
+{
+    plants_run_steps(plant, periods * plant->plan.scale.steps_per_period);
+}
+
+float plants_x_m(const struct plant *plant) { return plant->sim.f32.x * plant->plan.scale.length_m; }
+
+float plants_largest_v(struct plant *plant, uint32_t steps)
+{
+    float largest = 0.0f;
+
+    for (uint32_t i = 0u; i < steps; i++) {
+        (void)sim_step(&plant->sim);
+        largest = fmath_max(largest, fmath_abs(plant->sim.f32.v));
+    }
+    return largest;
+}
+
+uint32_t plants_scaled(uint32_t hosted, uint32_t on_board) { return tap_is_hosted() ? hosted : on_board; }
+
+float plants_random(uint32_t *state, float low, float high)
+{
+    return low + (high - low) * ((float)(tap_random(state) >> 8) * (1.0f / 16777216.0f));
+}

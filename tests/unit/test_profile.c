@@ -1,0 +1,123 @@
+/* Load and speed over time: held at the middle of each step, steps rounded to the grid, from the index alone. */
+#include "sim/profile.h"
+
+#include "base/fmath.h"
+#include "model/sine.h"
+#include "plants.h"
+#include "tap.h"
+#include "tests.h"
+
+/* Mass and stiffness for wn = 1 rad/s; N_max and v_max make the model's units 1 N and 1 m/s. */
+#define UNIT_SET "m 1 ke 1 mu_s 0.1 N_max 10 v_max 10 "
+
+static struct sim_plan plan; /* of the profile under test */
+
+static void plan_of(const char *assignments)
+{
+    const struct params params = plants_params(assignments);
+
+    plants_plan(&plan, &params);
+}
+
+/* Loads in newtons at a step of the present plan. */
+static float load_at(uint64_t step) { return profile_value(&plan.load, step) * plan.scale.load_n; }
+static float speed_at(uint64_t step) { return profile_value(&plan.speed, step) * plan.scale.speed_m_per_s; }
+
+static void check_constant(void)
+{
+    plan_of(UNIT_SET "N0 2 N1 5 v0 -3 v1 1");
+    tap_check_close(load_at(0u), 2.0f, 1e-6f, "a constant load at the start");
+    tap_check(load_at(0u) == load_at(UINT64_MAX) && speed_at(0u) == speed_at(UINT64_MAX), "and for ever");
+    tap_check_close(speed_at(5u), -3.0f, 1e-6f, "a constant speed with its sign");
+    tap_check(!profile_is_moving(&plan.load, 0u) && !profile_is_moving(&plan.speed, 0u), "which does not move");
+}
+
+/* h = 0.0981748 s: 10.4 steps are 1.0210176 s, 10.6 are 1.0406526 s. */
+static void check_step(void)
+{
+    plan_of(UNIT_SET "load step N0 2 N1 5 t1 1.0210176 speed step v0 1 v1 -2 tv1 1.0406526");
+    tap_check_close(load_at(9u), 2.0f, 1e-6f, "before its instant a step has the first value");
+    tap_check_close(load_at(10u), 5.0f, 2e-6f, "an instant 0.4 after a grid point is moved back to it");
+    tap_check_close(speed_at(10u), 1.0f, 1e-6f, "one 0.6 after it goes to the next");
+    tap_check_close(speed_at(11u), -2.0f, 1e-6f, "where the last value begins");
+    tap_check(profile_is_moving(&plan.load, 10u) && !profile_is_moving(&plan.load, 11u), "it moves until then");
+    plan_of(UNIT_SET "load step N0 2 N1 5 t1 0");
+    tap_check_close(load_at(0u), 5.0f, 2e-6f, "a step at time 0 is there at once");
+    plan_of(UNIT_SET "load step N0 2 N1 5 t1 1e6");
+    tap_check_close(load_at(10000000u), 2.0f, 1e-6f, "a late step waits");
+}
+
+/* From 10.25 to 30.25 steps: 1.0062914 s and 2.9697868 s. */
+static void check_ramp(void)
+{
+    bool rises = true;
+
+    plan_of(UNIT_SET "load ramp N0 2 N1 6 t1 1.0062914 t2 2.9697868 speed ramp v0 4 v1 0 tv1 0 tv2 0.98174770");
+    tap_check_close(load_at(9u), 2.0f, 1e-6f, "before a ramp there is the first value");
+    tap_check_close(load_at(10u), 2.05f, 1e-5f, "its first step is held at its middle, 0.25 steps up the ramp");
+    tap_check_close(load_at(20u), 4.05f, 1e-5f, "so is any other");
+    tap_check_close(load_at(29u), 5.85f, 1e-5f, "and the last whole one");
+    tap_check_close(load_at(30u), 6.0f, 2e-6f, "after it the last value");
+    tap_check(load_at(31u) == load_at(UINT64_C(1) << 40), "which stays");
+    tap_check_close(speed_at(0u), 3.8f, 1e-5f, "a ramp of ten steps from time 0");
+    tap_check_close(speed_at(9u), 0.2f, 1e-5f, "ends half a step before its end");
+    tap_check(speed_at(10u) == 0.0f, "and then is over");
+    for (uint32_t i = 0u; i < 40u; i++) {
+        rises = rises && load_at(i + 1u) >= load_at(i) && profile_is_moving(&plan.load, i) == (i < 30u);
+    }
+    tap_check(rises, "it never falls back and moves until its end");
+    plan_of(UNIT_SET "load ramp N0 2 N1 6 t1 0 t2 0");
+    tap_check_close(load_at(0u), 6.0f, 2e-6f, "a ramp without length is a step");
+}
+
+/* 3/1024 turns a step, 0.0304 Hz: the phase at the middle of step i is 3 (2 i + 1)/2048 turns. */
+static float expected_sine(uint64_t step)
+{
+    const uint32_t phase = (uint32_t)((2u * step + 1u) * 3u % 2048u);
+
+    return 5.0f + 2.0f * fmath_sine_turns(phase << 21);
+}
+
+static void check_sine(void)
+{
+    float worst = 0.0f;
+
+    plan_of(UNIT_SET "load sine N0 5 N1 2 t1 0.4908739 fN 0.029841552");
+    tap_check_close(load_at(4u), 5.0f, 2e-6f, "before its start a sine has its mean");
+    tap_check_close(load_at(5u), expected_sine(5u), 1e-5f, "then it counts its phase from time 0");
+    for (uint64_t i = 0u; i < 2000u; i++) {
+        const float error = load_at(1000000u + i) - expected_sine(1000000u + i);
+
+        worst = fmath_max(worst, fmath_abs(error));
+    }
+    /* The frequency in turns a step has 24 bits: after 3000 turns its last bit is worth 2e-4 turns. */
+    tap_check_close(worst, 0.0f, 3e-3f,
+                    "a million steps later the phase is off by no more than the frequency's rounding");
+    tap_check(!profile_is_moving(&plan.load, 0u), "a sine counts as steady");
+    plan_of(UNIT_SET "load sine N0 5 N1 2 fN 0.15915494"); /* 1/64 turn a step but for the last bit */
+    tap_check_close(load_at(15u), 5.0f + 2.0f * fmath_sine_turns(0x3e000000u), 1e-5f, "just before its crest");
+    tap_check_close(load_at(48u), 5.0f - 2.0f * fmath_sine_turns(0x3e000000u), 1e-5f, "and just after its trough");
+}
+
+static void check_exact_phase(void)
+{
+    /* A frequency that is a power of two of the steps' rate is exact, so its phase never drifts. */
+    const struct profile profile = {PROFILE_SINE, 0.0f, 1.0f, 0u, 0.0f, 0.0f, UINT64_C(1) << 58};
+    const uint64_t late = UINT64_C(1) << 50;
+    bool is_same = true;
+
+    for (uint64_t i = 0u; i < 64u; i++) {
+        is_same = is_same && profile_value(&profile, i) == profile_value(&profile, late + i);
+    }
+    tap_check(is_same, "an exact frequency gives the same bits after 2^50 steps");
+    tap_check(profile_value(&profile, 0u) == fmath_sine_turns(0x02000000u), "half a step after 0 at first");
+}
+
+void test_profile(void)
+{
+    check_constant();
+    check_step();
+    check_ramp();
+    check_sine();
+    check_exact_phase();
+}
