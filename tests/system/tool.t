@@ -24,6 +24,7 @@ steps,0.3,0.01,1,0.3,-0.002,1,1,1,0,1,1.5,5,41.3,0,2,-1e+30,0,0,0,0,0.23,-2.6,1.
 brake,0.3,120,0.1,0.42,-0.06,1e8,4e7,7.5e6,219,2,0,1500,0,0.05,0,0.36,0,0,0,0,1.8e-06,0.0002,1.8e-06,0,0.0008,-0.0003,0,9e-06,0.0002,300,40,0,0,0,0,-50,nan,rest
 sine,0.3,0.01,1,0.3,-0.002,1,1,1,0,3,2.5,0.4,0,0.174,1,-1e+30,0,0,0,0,-0.57,-0.66,1.2,-0.8,1.8,-2.1,0.15,-0.57,-0.66,300,40,2.01,0.15,0.12,0.29,-0.008,nan,locked-other
 edge,0.3,0.01,1,0.3,-0.002,1,1,1,0,0,1,0,0,0,0,-1e+30,0,0,0,0,-0.16,-0.15,0.57,-0.28,0.9,-0.8,0,-0.15,-0.01,300,40,0.6,0,0,0.29,-0.0001,nan,beating
+edge_slow,0.3,0.01,1,0.3,-0.002,1,1,1,0,0,1.1,0,0,0,0,-1e+30,0,0,0,0,-0.16,-0.15,0.57,-0.28,0.9,-0.8,0,-0.15,-0.01,300,40,0.6,0,0,0.29,-0.0001,nan,forced-p1
 leaves,0.3,0.01,1,0.3,-0.1,1,1,1,0,0,1,0,0,0,0,-1e+30,3.5,0,0,0,14433,-138366,55687,-42753,130530,-138366,0,nan,nan,300,40,nan,nan,nan,nan,0.15,1.7476,diverging
 still,0.3,0.01,0,0.3,-0.002,1,1,1,0,0,2,0,0,0,0,-1e+30,0,0,0,0,0,0,0,0,0,0,1,0,0,300,40,0,1,0,0,-0.01,nan,rest
 """
@@ -70,14 +71,14 @@ def golden_tests(tap, folder):
         return tool("golden", "--cases", table, "--out", out, "--limit", "3", *more, "--", *FAKE, "--cases", known, *fake)
 
     run = golden()
-    tap.ok(run.returncode == 0 and run.stdout.endswith("7 passed, 0 failed\n"), "equal answers pass", run)
+    tap.ok(run.returncode == 0 and run.stdout.endswith("8 passed, 0 failed\n"), "equal answers pass", run)
     with open(out, newline="") as file:
         rows = list(csv.DictReader(file))
     wanted = [line.split(",")[0] for line in ROWS.splitlines()]
     tap.ok([row["case"] for row in rows] == wanted, "the rows come out in the order of the table")
     tap.ok(rows[0]["xpp"] == "1.23" and rows[0]["steps"] == str(340 * 64), "a row holds the answers as received")
-    tap.ok(all(rows[5][name] == "nan" for name in ("x_20", "stick_20", "x_100", "xpp", "f_up")) and
-           (rows[5]["verdict"], rows[5]["class"], rows[5]["t_v10"]) == ("squeal", "diverging", "1.7476"),
+    tap.ok(all(rows[6][name] == "nan" for name in ("x_20", "stick_20", "x_100", "xpp", "f_up")) and
+           (rows[6]["verdict"], rows[6]["class"], rows[6]["t_v10"]) == ("squeal", "diverging", "1.7476"),
            "a diverging row has a verdict and no measurements")
 
     run = golden(more=())
@@ -88,7 +89,7 @@ def golden_tests(tap, folder):
     swapped = write(folder + "/swapped.csv", "\r\n".join(
         ",".join(reversed(line.split(","))) for line in (COLUMNS + "\n" + ROWS).splitlines()) + "\r\n")
     run = golden(table=swapped)
-    tap.ok(run.returncode == 0 and "7 passed" in run.stdout, "columns in any order, lines ended by CR LF", run)
+    tap.ok(run.returncode == 0 and "8 passed" in run.stdout, "columns in any order, lines ended by CR LF", run)
 
     # Each is beyond its tolerance by a little; its neighbour is within.
     for fields, bad in (("x=1.004", "sticks: x_20"), ("xmax=1.0011", "sticks: xmax_20"), ("xmin=1.002", "sticks: xmin_20"),
@@ -129,16 +130,16 @@ def golden_tests(tap, folder):
     tap.ok("leaves: x_20 is 14433, expected nan" in run.stdout, "measurements after the divergence fail", run)
 
     run = golden("--refuse", "set load ramp")
-    tap.ok(run.returncode == 1 and "brake: error not-served" in run.stderr and "6 passed, 1 failed" in run.stdout,
+    tap.ok(run.returncode == 1 and "brake: error not-served" in run.stderr and "7 passed, 1 failed" in run.stdout,
            "a refused row is failed with its reason, the others go on", run)
     with open(out, newline="") as file:
         rows = list(csv.DictReader(file))
     tap.ok(rows[2]["class"] == "refused" and rows[2]["x_20"] == "nan", "and is written as such")
     run = golden("--die", "set load ramp")
     tap.ok(run.returncode == 1 and "ended with exit code 3" in run.stderr and "the kernel image is gone" in run.stderr and
-           "6 passed, 1 failed" in run.stdout, "a firmware that dies at one case costs that case", run)
+           "7 passed, 1 failed" in run.stdout, "a firmware that dies at one case costs that case", run)
     run = golden("--die", "echo")
-    tap.ok(run.returncode == 1 and "0 passed, 7 failed" in run.stdout, "a firmware that dies at once", run)
+    tap.ok(run.returncode == 1 and "0 passed, 8 failed" in run.stdout, "a firmware that dies at once", run)
     run = golden("--mute", "measure", more=("--limit", "1"))
     tap.ok(run.returncode == 1 and "was silent for 1 s after 'measure 20'" in run.stderr, "a silent firmware", run)
     run = golden("--flood")
@@ -150,7 +151,7 @@ def golden_tests(tap, folder):
     tap.ok(run.returncode == 1 and "/dev/full: No space left on device" in run.stderr, "a full disk", run)
     run = tool("golden", "--cases", write(folder + "/gap.csv", COLUMNS + "\n" + ROWS + "short,1,2\n"), "--out", out,
                "--", *FAKE)
-    tap.ok(run.returncode == 1 and "gap.csv:9: 3 cells where the header has 39" in run.stderr, "a ragged table", run)
+    tap.ok(run.returncode == 1 and "gap.csv:10: 3 cells where the header has 39" in run.stderr, "a ragged table", run)
     run = golden(table=write(folder + "/hole.csv", COLUMNS + "\n" + ROWS.replace("sticks,0.3", "sticks,")))
     tap.ok(run.returncode == 1 and "sticks: no number in column m" in run.stderr, "an empty cell", run)
     run = tool("golden", "--cases", folder + "/none.csv", "--out", out, "--", *FAKE)

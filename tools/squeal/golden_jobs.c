@@ -64,7 +64,7 @@ static void work(const struct golden_plan *plan, const struct pipes *pipes)
     for (size_t row; losses < LOSSES_MAX && (row = ticket_take(pipes, plan->cases.rows)) < plan->cases.rows;) {
         struct golden_result result;
         if (state == SESSION_LOST) {
-            state = session_open(&session, plan->command, plan->limit_s, NULL, NULL);
+            state = session_open(&session, plan->command, NULL, NULL);
         }
         if (state == SESSION_LOST) {
             result_lost(&result, row, session.failure);

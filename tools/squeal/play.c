@@ -216,7 +216,7 @@ static void acts_play(struct story *story)
 
 void play_all(struct story *story)
 {
-    if (session_open(&story->session, story->command, story->limit_s, listen, story) == SESSION_LOST) {
+    if (session_open(&story->session, story->command, listen, story) == SESSION_LOST) {
         story_fail(story, "%s", story->session.failure);
         story->act_count = 0;
         return;

@@ -153,7 +153,7 @@ static enum session_result lose_dead(struct session *session)
 static enum session_result talk(struct session *session, const char *text, size_t length, double limit_s)
 {
     const double end_s = now_s() + limit_s;
-    bool is_silent = true;
+    double heard_s = now_s();
     size_t sent = 0;
     char bytes[READ_SIZE];
 
@@ -163,8 +163,10 @@ static enum session_result talk(struct session *session, const char *text, size_
                                  {.fd = sent < length ? session->input : -1, .events = POLLOUT}};
         const double left_s = end_s - now_s();
         if (left_s <= 0.0) {
-            return is_silent ? lose(session, "the firmware was silent for %g s after '%s'", limit_s, session->command)
-                             : lose(session, "the firmware did not answer '%s' within %g s", session->command, limit_s);
+            const double silent_s = now_s() - heard_s;
+            return silent_s > 0.5 * limit_s
+                       ? lose(session, "the firmware was silent for %.0f s after '%s'", silent_s, session->command)
+                       : lose(session, "the firmware did not answer '%s' within %g s", session->command, limit_s);
         }
         if (poll(ends, 3, (int)(left_s * 1000.0 < 60000.0 ? left_s * 1000.0 + 1.0 : 60000.0)) < 0 && errno != EINTR) {
             return lose(session, "poll: %s", strerror(errno));
@@ -177,7 +179,7 @@ static enum session_result talk(struct session *session, const char *text, size_
             if (count == 0 || (count < 0 && errno != EAGAIN && errno != EINTR)) {
                 return lose_dead(session);
             }
-            is_silent = is_silent && count <= 0;
+            heard_s = now_s();
             if (count > 0 && bytes_take(session, bytes, (size_t)count)) {
                 return strncmp(session->answer, "ok", 2) == 0 ? SESSION_OK : SESSION_REFUSED;
             }
@@ -241,8 +243,7 @@ static bool pipes_make(int pipes[4][2])
     return true;
 }
 
-enum session_result session_open(struct session *session, char *const argv[], double limit_s, session_listener listener,
-                                 void *context)
+enum session_result session_open(struct session *session, char *const argv[], session_listener listener, void *context)
 {
     int pipes[4][2]; /* to its stdin, from its stdout, from its stderr, and how exec went */
     int reason = 0;
@@ -279,7 +280,7 @@ enum session_result session_open(struct session *session, char *const argv[], do
     (void)fcntl(session->output, F_SETFL, O_NONBLOCK);
     (void)fcntl(session->errors, F_SETFL, O_NONBLOCK);
     for (int i = 0; i < OPEN_TRIES && result == SESSION_REFUSED; i++) {
-        result = session_command(session, limit_s, "echo off");
+        result = session_command(session, SESSION_START_S, "echo off");
     }
     return result == SESSION_REFUSED ? lose(session, "the firmware refuses 'echo off': %.100s", session->answer)
                                      : result;

@@ -23,7 +23,8 @@ typedef void (*session_listener)(void *context, enum session_line kind, const ch
 
 enum {
     SESSION_COMMAND_MAX = 240, /* characters of a line that the firmware takes */
-    SESSION_LINE_MAX = 4096
+    SESSION_LINE_MAX = 4096,
+    SESSION_START_S = 30
 };
 
 struct session {
@@ -42,10 +43,9 @@ struct session {
     char failure[512]; /* why the session is lost, one line */
 };
 
-/* Starts argv[0] with its arguments and turns its echo off. The listener may be NULL. On SESSION_LOST failure is set
- * and nothing is left running. */
-enum session_result session_open(struct session *session, char *const argv[], double limit_s, session_listener listener,
-                                 void *context);
+/* Starts argv[0] with its arguments and turns its echo off, for which it gets SESSION_START_S, since an emulator on a busy
+ * machine is slow to start. The listener may be NULL. On SESSION_LOST failure is set and nothing is left running. */
+enum session_result session_open(struct session *session, char *const argv[], session_listener listener, void *context);
 
 /* Sends one line and waits at most limit_s for its answer. While it waits it takes whatever the firmware says, so the
  * two never block each other. */
