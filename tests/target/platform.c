@@ -18,8 +18,8 @@ static struct {
     volatile uint32_t burn;       /* clock counts that a call takes */
 } tick;
 
-static uint32_t filled_at_start = 0x5EA1u;
-static uint32_t cleared_at_start;
+static volatile uint32_t filled_at_start = 0x5EA1u; /* volatile, or the compiler answers for it */
+static volatile uint32_t cleared_at_start;
 
 void app_tick(void)
 {
