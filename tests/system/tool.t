@@ -149,6 +149,10 @@ def golden_tests(tap, folder):
 
     run = tool("golden", "--cases", cases, "--out", "/dev/full", "--", *FAKE, "--cases", cases)
     tap.ok(run.returncode == 1 and "/dev/full: No space left on device" in run.stderr, "a full disk", run)
+    run = tool("golden", "--cases", cases, "--out", folder + "/made", "--", *FAKE, "--cases", cases)
+    tap.ok(run.returncode == 0 and os.listdir(folder + "/made") == ["cases.csv"], "a folder to write to", run)
+    run = tool("golden", "--cases", cases, "--out", folder + "/a/b", "--", *FAKE, "--cases", cases)
+    tap.ok(run.returncode == 1 and "/a/b/cases.csv: No such file or directory" in run.stderr, "a folder that cannot be", run)
     run = tool("golden", "--cases", write(folder + "/gap.csv", COLUMNS + "\n" + ROWS + "short,1,2\n"), "--out", out,
                "--", *FAKE)
     tap.ok(run.returncode == 1 and "gap.csv:10: 3 cells where the header has 39" in run.stderr, "a ragged table", run)

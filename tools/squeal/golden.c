@@ -5,8 +5,9 @@
 
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 
-enum { JOBS_MAX = 16, SPP_MAX = 1024, LIMIT_MAX_S = 86400 };
+enum { JOBS_MAX = 16, SPP_MAX = 1024, LIMIT_MAX_S = 86400, PATH_SIZE = 512 };
 
 const char *const golden_names[GOLDEN_COLUMNS] = {
     "x_20",    "v_20",      "xmax_20", "xmin_20", "vmax_20",  "vmin_20", "stick_20",
@@ -30,6 +31,24 @@ static bool has_columns(const struct golden_plan *plan, const char *path)
         return false;
     }
     return true;
+}
+
+/* Where the results go: into the file of that name, or, if it is no CSV file but a folder, into a file there that is called
+ * like the table. A folder that does not exist is made. */
+static const char *out_path(const char *out, const char *cases, char path[PATH_SIZE])
+{
+    const char *slash = strrchr(cases, '/');
+    const char *suffix = strrchr(out, '.');
+    struct stat status;
+    const bool exists = stat(out, &status) == 0;
+
+    if ((exists && !S_ISDIR(status.st_mode)) || (!exists && suffix != NULL && strcmp(suffix, ".csv") == 0)) {
+        return out;
+    }
+    /* What is wrong with the folder shows when the file is created in it. */
+    (void)mkdir(out, 0777);
+    (void)snprintf(path, PATH_SIZE, "%s/%s", out, slash == NULL ? cases : slash + 1);
+    return path;
 }
 
 static bool results_write(const struct golden_plan *plan, const struct golden_result *results, const char *path)
@@ -79,7 +98,7 @@ static int plan_run(const struct golden_plan *plan, const char *out)
 int golden_main(int argc, char **argv)
 {
     struct golden_plan plan = {.spp = "64", .normal = "rk4", .arith = "f32"};
-    char problem[CSV_PROBLEM_MAX];
+    char problem[CSV_PROBLEM_MAX], path[PATH_SIZE];
     const char *cases = NULL, *out = NULL, *jobs = "2", *limit = "600";
     long limit_s = 0;
     const struct option options[] = {
@@ -104,7 +123,7 @@ int golden_main(int argc, char **argv)
     if (plan.cases.rows == 0) {
         fprintf(stderr, "squeal: %s: no rows\n", cases);
     } else if (has_columns(&plan, cases)) {
-        code = plan_run(&plan, out);
+        code = plan_run(&plan, out_path(out, cases, path));
     }
     csv_free(&plan.cases);
     return code;

@@ -14,13 +14,14 @@ static const struct {
     int (*run)(int argc, char **argv);
 } subcommands[] = {{"golden", golden_main}, {"run", story_main}};
 
-static const char help[] = "usage: squeal-tool golden --cases IN.csv --out OUT.csv [options] -- FIRMWARE...\n"
+static const char help[] = "usage: squeal-tool golden --cases IN.csv --out OUT [options] -- FIRMWARE...\n"
                            "       squeal-tool run --board NAME --out DIRECTORY [options] -- FIRMWARE...\n"
                            "\n"
                            "FIRMWARE... is the command line that starts a firmware with its console on standard\n"
                            "input and output: a host build, or an emulator with its image.\n"
                            "\n"
                            "golden  runs every case of a table and compares it with the table's reference columns\n"
+                           "  --out OUT        a CSV file, or a folder for one that is called like the table\n"
                            "  --spp N          model steps per normal period (64)\n"
                            "  --normal M       exact or rk4 (rk4)\n"
                            "  --arith A        number format of the plant (f32)\n"

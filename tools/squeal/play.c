@@ -13,7 +13,7 @@
 #define SOUND_LOWEST_HZ 200.0 /* below this it is a groan that small speakers do not play */
 #define TICK_FASTEST_HZ 4000.0
 #define TICK_SLOWEST_HZ 10.0
-#define TICK_RATIO 0.7 /* between two tries */
+#define TICK_RATIO 0.9 /* between two tries */
 
 bool play_is_audible(const struct act *act)
 {
