@@ -51,16 +51,10 @@ static const char *out_path(const char *out, const char *cases, char path[PATH_S
     return path;
 }
 
-static bool results_write(const struct golden_plan *plan, const struct golden_result *results, const char *path)
+static void results_write(const struct golden_plan *plan, const struct golden_result *results, FILE *file)
 {
-    char problem[CSV_PROBLEM_MAX];
     const int name = csv_column(&plan->cases, "case");
-    FILE *file = csv_create(path, problem);
 
-    if (file == NULL) {
-        fprintf(stderr, "squeal: %s\n", problem);
-        return false;
-    }
     (void)fputs("case", file);
     for (int column = 0; column < GOLDEN_COLUMNS; column++) {
         (void)fprintf(file, ",%s", golden_names[column]);
@@ -72,27 +66,28 @@ static bool results_write(const struct golden_plan *plan, const struct golden_re
         }
     }
     (void)fputc('\n', file);
-    if (!csv_close(file, path, problem)) {
-        fprintf(stderr, "squeal: %s\n", problem);
-        return false;
-    }
-    return true;
 }
 
-static int plan_run(const struct golden_plan *plan, const char *out)
+/* The file is opened before the first case is run: hours of work are not lost to a wrong path. */
+static int plan_run(const struct golden_plan *plan, const char *path)
 {
+    char problem[CSV_PROBLEM_MAX] = "out of memory";
     struct golden_result *results = calloc(plan->cases.rows, sizeof *results);
+    FILE *file = results == NULL ? NULL : csv_create(path, problem);
+    struct golden_score score = {0};
 
-    if (results == NULL) {
-        fprintf(stderr, "squeal: out of memory\n");
+    if (file != NULL) {
+        golden_jobs_run(plan, results);
+        score = golden_check(plan, results);
+        printf("%zu passed, %zu failed\n", score.passed, score.failed);
+        results_write(plan, results, file);
+    }
+    free(results);
+    if (file == NULL || !csv_close(file, path, problem)) {
+        fprintf(stderr, "squeal: %s\n", problem);
         return EXIT_FAILED;
     }
-    golden_jobs_run(plan, results);
-    const bool is_written = results_write(plan, results, out);
-    const struct golden_score score = golden_check(plan, results);
-    free(results);
-    printf("%zu passed, %zu failed\n", score.passed, score.failed);
-    return is_written && score.failed == 0 ? EXIT_OK : EXIT_FAILED;
+    return score.failed == 0 ? EXIT_OK : EXIT_FAILED;
 }
 
 int golden_main(int argc, char **argv)
