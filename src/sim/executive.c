@@ -61,7 +61,7 @@ static void take_order(struct executive *executive)
 
 static uint32_t steps_due(const struct executive *executive)
 {
-    const uint32_t credit = executive->is_free != 0u ? UINT32_MAX : executive_credit(executive);
+    const uint32_t credit = word_read(&executive->is_free) != 0u ? UINT32_MAX : executive_credit(executive);
 
     return credit < executive->in_force.substeps ? credit : executive->in_force.substeps;
 }
@@ -87,8 +87,8 @@ void executive_tick(struct executive *executive, bool is_due)
             push_sample(executive);
         }
     }
-    if (executive->is_free == 0u) {
-        executive->used += steps;
+    if (word_read(&executive->is_free) == 0u) {
+        word_write(&executive->used, word_read(&executive->used) + steps);
     }
     executive->load.ticks++;
     if (has_news || --executive->until_report == 0u || !executive_wants_tick(executive)) {
@@ -201,31 +201,31 @@ void executive_measure(struct executive *executive, uint64_t steps)
 
 void executive_grant(struct executive *executive, uint32_t steps)
 {
-    executive->granted += steps;
+    word_write(&executive->granted, word_read(&executive->granted) + steps);
 }
 
 void executive_free_run(struct executive *executive)
 {
-    executive->is_free = 1u;
+    word_write(&executive->is_free, 1u);
 }
 
 void executive_stop(struct executive *executive)
 {
-    executive->is_free = 0u;
-    executive->granted = executive->used;
+    word_write(&executive->is_free, 0u);
+    word_write(&executive->granted, word_read(&executive->used));
 }
 
 uint32_t executive_credit(const struct executive *executive)
 {
-    const uint32_t credit = executive->granted - executive->used;
+    const uint32_t credit = word_read(&executive->granted) - word_read(&executive->used);
 
     /* Taken back while the interrupt used some of it: less than nothing is nothing. */
-    return executive->is_free != 0u || credit > EXECUTIVE_GRANT_MAX ? 0u : credit;
+    return word_read(&executive->is_free) != 0u || credit > EXECUTIVE_GRANT_MAX ? 0u : credit;
 }
 
 bool executive_wants_tick(const struct executive *executive)
 {
-    return executive->is_free != 0u || executive_credit(executive) != 0u;
+    return word_read(&executive->is_free) != 0u || executive_credit(executive) != 0u;
 }
 
 const struct params *executive_params(const struct executive *executive)

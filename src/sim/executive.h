@@ -16,6 +16,7 @@
 
 #include "base/handoff.h"
 #include "base/ring.h"
+#include "base/word.h"
 #include "sim/sim.h"
 
 enum {
@@ -72,9 +73,9 @@ struct executive {
     struct ring samples;
 
     /* single words, one writer each */
-    volatile uint32_t granted; /* main: steps granted so far */
-    volatile uint32_t used;    /* interrupt: steps of it used */
-    volatile uint32_t is_free; /* main: endless credit */
+    struct word granted; /* main: steps granted so far */
+    struct word used;    /* interrupt: steps of it used */
+    struct word is_free; /* main: endless credit */
 
     /* main's own */
     struct executive_order draft; /* last order given */
