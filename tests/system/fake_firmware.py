@@ -149,7 +149,7 @@ class Firmware:
 
     def do_status(self, words):
         self.answer("status", state="ready", step=self.step, overruns=0, caps=0, saturations=0, drops=self.drops,
-                    spp=self.spp(), hash="%08x" % (self.step * 2654435761 % 2 ** 32))
+                    spp=self.spp(), C=0.018257, Z2=2, eps="nan", mu=0.3, V0=0.547, hash="%08x" % (self.step * 2654435761 % 2 ** 32))
 
     def do_list(self, words):
         for symbol, value in self.values.items():

@@ -219,7 +219,7 @@ def run_tests(tap, folder):
     tap.ok(record["firmware"]["build"] == "fake" and record["board"] == "fake" and record["emulator"] is None and
            record["seed"] is None, "run.json names firmware and board")
     tap.ok(act["parameters_si"]["ke"] == 1 and act["parameters_si"]["load"] == "constant" and
-           abs(act["groups"]["Z2"] - 2) < 1e-6 and abs(act["groups"]["C"] - 0.01 / 0.3 ** 0.5) < 1e-8,
+           act["groups"] == {"C": 0.018257, "Z2": 2, "eps": None, "mu": 0.3, "V0": 0.547},
            "parameters in SI and as groups")
     tap.ok(act["verdict"]["propensity"] == "squeal" and act["complete"] and act["samples"] == len(second) and
            len(act["hash_before"]) == 8, "verdict, counters, hash")

@@ -3,11 +3,8 @@
 #include "report.h"
 
 #include "fields.h"
-#include "model/params.h"
-#include "model/scale.h"
 
 #include <ctype.h>
-#include <math.h>
 #include <string.h>
 
 static void string_write(FILE *file, const char *text, size_t length)
@@ -81,27 +78,20 @@ static bool parameter_cut(const char *line, size_t *symbol, const char **value, 
     return true;
 }
 
-/* Writes the parameters as listed and collects them in params, as far as this tool knows them. */
-static void parameters_write(FILE *file, const char *lines, struct params *params)
+static void parameters_write(FILE *file, const char *lines)
 {
     bool is_first = true;
 
-    params_default(params);
     (void)fputc('{', file);
     for (const char *line = lines; line != NULL && *line != '\0';) {
         size_t symbol, length;
         const char *value;
         if (parameter_cut(line, &symbol, &value, &length)) {
-            const struct params_info *info = params_find(line, symbol);
-            float number = 0.0f;
             (void)fputs(is_first ? "" : ", ", file);
             string_write(file, line, symbol);
             (void)fputs(": ", file);
             value_write(file, "", value, length);
             is_first = false;
-            if (info != NULL && params_parse(info, value, length, &number) == ERROR_OK) {
-                params_set(params, info, number);
-            }
         }
         line = strchr(line, '\n');
         line = line == NULL ? NULL : line + 1;
@@ -109,44 +99,30 @@ static void parameters_write(FILE *file, const char *lines, struct params *param
     (void)fputc('}', file);
 }
 
-static void number_write(FILE *file, const char *name, double value)
+/* The dimensionless groups of the paper, which status carries among its counters. */
+static void groups_write(FILE *file, const char *status)
 {
-    (void)fprintf(file, isfinite(value) ? ", \"%s\": %.9g" : ", \"%s\": null", name, value);
-}
+    static const char *const groups[] = {"C", "Z2", "eps", "mu", "V0"};
+    char value[32];
 
-static void groups_write(FILE *file, const struct params *params, bool is_known)
-{
-    struct scale scale;
-
-    /* An act that was cut short has listed nothing, and the groups of the defaults would mean nothing. */
-    if (!is_known || scale_derive(params, NULL, &scale).error != ERROR_OK) {
-        (void)fputs("null", file);
-        return;
+    for (size_t i = 0; i < sizeof groups / sizeof groups[0]; i++) {
+        if (!fields_text(status, groups[i], value, sizeof value)) {
+            (void)strcpy(value, "nan");
+        }
+        (void)fprintf(file, "%s\"%s\": ", i == 0 ? "{" : ", ", groups[i]);
+        value_write(file, groups[i], value, strlen(value));
     }
-    (void)fprintf(file, "{\"C\": %.9g", (double)scale.damping);
-    number_write(file, "Z2", (double)scale.stiffness);
-    number_write(file, "mu", (double)scale.friction);
-    number_write(file, "eps", (double)scale.friction_slope);
-    number_write(file, "mu_floor", scale.has_floor ? (double)scale.friction_floor : (double)NAN);
-    number_write(file, "Cn", (double)scale.normal_damping);
-    number_write(file, "V0", (double)params->speed_m_per_s / (double)scale.speed_m_per_s);
-    number_write(file, "h", (double)scale.step);
-    number_write(file, "wn_rad_per_s", (double)scale.omega_rad_per_s);
-    number_write(file, "Vref_m_per_s", (double)scale.speed_m_per_s);
-    number_write(file, "load_unit_n", (double)scale.load_n);
     (void)fputc('}', file);
 }
 
 static void act_write(FILE *file, const struct act *act)
 {
-    struct params params;
-
     (void)fprintf(file, "    {\"act\": %d, \"title\": ", act->number);
     string_write(file, act->title, strlen(act->title));
     (void)fprintf(file, ", \"complete\": %s,\n     \"parameters_si\": ", act->is_done ? "true" : "false");
-    parameters_write(file, act->parameters, &params);
+    parameters_write(file, act->parameters);
     (void)fputs(",\n     \"groups\": ", file);
-    groups_write(file, &params, act->is_done);
+    groups_write(file, act->status);
     (void)fputs(",\n     \"verdict\": ", file);
     fields_write(file, act->verdict);
     (void)fputs(",\n     \"status\": ", file);
