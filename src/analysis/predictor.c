@@ -4,15 +4,15 @@
 #include "base/fmath.h"
 #include "model/sine.h"
 
-#define RATE_MARGIN 1e-4f   /* of the growth rate: 6e-4 a period is too close to call */
-#define TOUCH_MARGIN 0.95f  /* forced motion this near to the disc's speed is worth watching */
-#define RESPONSE_MAX 64.0f  /* no finite response is trusted beyond it */
+#define RATE_MARGIN 1e-4f  /* of the growth rate: 6e-4 a period is too close to call */
+#define TOUCH_MARGIN 0.95f /* forced motion this near to the disc's speed is worth watching */
+#define RESPONSE_MAX 64.0f /* no finite response is trusted beyond it */
 
 /* The set at the end of its profiles. */
 struct finish {
-    float load, speed;  /* n and |v0| */
-    float friction;     /* mu at v0 */
-    float slope;        /* local slope of friction times n: eps n, 0 on the floor */
+    float load, speed; /* n and |v0| */
+    float friction;    /* mu at v0 */
+    float slope;       /* local slope of friction times n: eps n, 0 on the floor */
     bool is_on_floor;
 };
 
@@ -21,10 +21,7 @@ struct oscillation {
     float y, w;
 };
 
-static float hypotenuse(float a, float b)
-{
-    return fmath_sqrt(a * a + b * b);
-}
+static float hypotenuse(float a, float b) { return fmath_sqrt(a * a + b * b); }
 
 static struct finish find_finish(const struct params *params, const struct scale *scale)
 {
@@ -151,12 +148,10 @@ struct prediction predictor_predict(const struct params *params, const struct sc
     prediction.onset_touch_ratio = 0.0f;
     if (finish.speed > 0.0f) {
         prediction.touch_ratio = (lasting * forced + response.load_response) / finish.speed;
-        prediction.onset_touch_ratio = (onset * forced + response.load_response +
-                                        transient_speed(params, scale, &finish, onset)) /
-                                       finish.speed;
+        prediction.onset_touch_ratio =
+            (onset * forced + response.load_response + transient_speed(params, scale, &finish, onset)) / finish.speed;
     }
-    prediction.is_bistable =
-        finish.is_on_floor && scale->damping + scale->friction_slope * finish.load < 0.0f;
+    prediction.is_bistable = finish.is_on_floor && scale->damping + scale->friction_slope * finish.load < 0.0f;
     prediction.verdict = judge(&prediction, &finish);
     return prediction;
 }

@@ -18,7 +18,7 @@ enum predictor_verdict { PREDICTION_UNKNOWN, PREDICTION_QUIET, PREDICTION_WATCH,
 
 struct prediction {
     enum predictor_verdict verdict; /* UNKNOWN where the disc stands still */
-    float rate;              /* growth of permanent slip at the end of the profiles, per unit of time 1/wn */
+    float rate;                     /* growth of permanent slip at the end of the profiles, per unit of time 1/wn */
     float touch_ratio;       /* V_h/|v0| of the steady forced motion; 1 or more: the pad catches up with the disc */
     float onset_touch_ratio; /* the same with the transient of the onset added */
     bool is_bistable;        /* quiet from rest, but a kick across the friction floor's knee may start squeal */

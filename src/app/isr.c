@@ -14,10 +14,7 @@ static struct {
     struct isr_ticks ticks;
 } timer;
 
-void isr_init(struct executive *which)
-{
-    executive = which;
-}
+void isr_init(struct executive *which) { executive = which; }
 
 /* Whole periods since the tick before; one, if none was lost. */
 static void count_ticks(uint32_t now)
@@ -69,7 +66,4 @@ void isr_follow(void)
     }
 }
 
-struct isr_ticks isr_ticks(void)
-{
-    return timer.ticks;
-}
+struct isr_ticks isr_ticks(void) { return timer.ticks; }

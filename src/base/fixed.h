@@ -6,17 +6,15 @@
 #include <stdint.h>
 
 /* Magnitude; defined for INT32_MIN too. */
-static inline uint32_t fixed_abs(int32_t value)
-{
-    return value < 0 ? 0u - (uint32_t)value : (uint32_t)value;
-}
+static inline uint32_t fixed_abs(int32_t value) { return value < 0 ? 0u - (uint32_t)value : (uint32_t)value; }
 
 /* value / 2^shift, rounded to nearest, halves away from zero, so that mirrored values stay mirrored; shift 1 ... 62. */
 static inline int64_t fixed_shift_right(int64_t value, unsigned shift)
 {
     const uint64_t half = (uint64_t)1 << (shift - 1u);
 
-    return value < 0 ? -(int64_t)((0u - (uint64_t)value + half) >> shift) : (int64_t)(((uint64_t)value + half) >> shift);
+    return value < 0 ? -(int64_t)((0u - (uint64_t)value + half) >> shift)
+                     : (int64_t)(((uint64_t)value + half) >> shift);
 }
 
 /* The nearest value that fits 32 bits, symmetric: never INT32_MIN. */

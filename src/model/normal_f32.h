@@ -26,12 +26,12 @@ struct normal_f32_coeffs {
 };
 
 struct normal_f32 {
-    float y, w; /* displacement and velocity */
-    float n;    /* brake force held over the present step */
+    float y, w;         /* displacement and velocity */
+    float n;            /* brake force held over the present step */
     float cosine, sine; /* y = n + cosine cos(phase) + sine sin(phase), where has_phase */
     uint32_t phase;
-    float least_force;  /* the contact force is y, but never less than this: 0, or far below all y where it may pull */
-    bool is_lifted;     /* spring off: contact lift and y < 0 */
+    float least_force; /* the contact force is y, but never less than this: 0, or far below all y where it may pull */
+    bool is_lifted;    /* spring off: contact lift and y < 0 */
     bool is_steady_from_rest; /* from rest under a force that never changed: y >= 0 but for rounding */
 };
 

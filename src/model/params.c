@@ -119,8 +119,7 @@ struct params_problem params_check(const struct params *params)
         const float value = params_value(params, info);
 
         /* Asks "is it inside?", so that NaN, which is neither below nor above, is refused. */
-        if (!(value >= info->low && value <= info->high) ||
-            (is_whole(info) && (float)(int32_t)value != value)) {
+        if (!(value >= info->low && value <= info->high) || (is_whole(info) && (float)(int32_t)value != value)) {
             problem = (struct params_problem){ERROR_OUT_OF_RANGE, info, info->low, info->high};
             return problem;
         }

@@ -15,10 +15,7 @@ static struct params_problem blame(enum error error, const char *symbol, float l
     return (struct params_problem){error, params_find(symbol, length), low, high};
 }
 
-uint32_t scale_steps_per_period(const struct params *params)
-{
-    return 16u << (uint32_t)params->steps_per_period;
-}
+uint32_t scale_steps_per_period(const struct params *params) { return 16u << (uint32_t)params->steps_per_period; }
 
 float scale_load_peak_n(const struct params *params)
 {
@@ -37,9 +34,8 @@ float scale_speed_peak_m_per_s(const struct params *params)
 {
     const float start = fmath_abs(params->speed_m_per_s);
 
-    return (int)params->speed_profile == SPEED_CONSTANT
-               ? start
-               : fmath_max(start, fmath_abs(params->speed_end_m_per_s));
+    return (int)params->speed_profile == SPEED_CONSTANT ? start
+                                                        : fmath_max(start, fmath_abs(params->speed_end_m_per_s));
 }
 
 /* Parameters that only make sense together. */
@@ -59,11 +55,9 @@ static struct params_problem check_together(const struct params *params)
 
 static void choose_units(const struct params *params, float impedance, struct scale *scale)
 {
-    const float load = params->load_max_n > 0.0f ? params->load_max_n
-                                                 : SCALE_RESERVE * scale_load_peak_n(params);
-    const float speed = params->speed_max_m_per_s > 0.0f
-                            ? params->speed_max_m_per_s
-                            : SCALE_RESERVE * scale_speed_peak_m_per_s(params);
+    const float load = params->load_max_n > 0.0f ? params->load_max_n : SCALE_RESERVE * scale_load_peak_n(params);
+    const float speed =
+        params->speed_max_m_per_s > 0.0f ? params->speed_max_m_per_s : SCALE_RESERVE * scale_speed_peak_m_per_s(params);
 
     /* Without any load the contact still needs a unit: any will do, since n = 0 in all of them. */
     scale->load_n = load > 0.0f ? load : 1.0f;
@@ -81,16 +75,15 @@ static struct params_problem check_fit(const struct params *params, const struct
     }
     if (!(scale->stiffness <= SCALE_STIFFNESS_MAX)) {
         return blame(ERROR_OUT_OF_SCALE, "kt", 0.0f,
-                     SCALE_STIFFNESS_MAX * params->stiffness_normal_n_per_m -
-                         params->stiffness_caliper_n_per_m);
+                     SCALE_STIFFNESS_MAX * params->stiffness_normal_n_per_m - params->stiffness_caliper_n_per_m);
     }
     if (!(scale->friction <= SCALE_FRICTION_MAX)) {
         return blame(ERROR_OUT_OF_SCALE, "mu_s", 0.0f,
                      SCALE_FRICTION_MAX / scale->friction * params->friction_static_ratio);
     }
     if (!(fmath_abs(scale->friction_slope) <= SCALE_FRICTION_MAX)) {
-        const float limit = SCALE_FRICTION_MAX / fmath_abs(scale->friction_slope) *
-                            fmath_abs(params->friction_slope_s_per_m);
+        const float limit =
+            SCALE_FRICTION_MAX / fmath_abs(scale->friction_slope) * fmath_abs(params->friction_slope_s_per_m);
         return blame(ERROR_OUT_OF_SCALE, "alpha", -limit, limit);
     }
     return no_problem;
@@ -99,8 +92,8 @@ static struct params_problem check_fit(const struct params *params, const struct
 /* One step must resolve the fastest of the normal and tangential oscillation and of both dampings. */
 static struct params_problem check_step(const struct scale *scale)
 {
-    const float fastest = fmath_max(fmath_max(1.0f, fmath_sqrt(scale->stiffness)),
-                                    fmath_max(scale->damping, scale->normal_damping));
+    const float fastest =
+        fmath_max(fmath_max(1.0f, fmath_sqrt(scale->stiffness)), fmath_max(scale->damping, scale->normal_damping));
 
     if (!(scale->step * fastest <= SCALE_STEP_MAX)) {
         return blame(ERROR_STEP_TOO_LARGE, "spp", 0.0f, 0.0f);
@@ -123,8 +116,8 @@ static void derive_groups(const struct params *params, float impedance, struct s
     const float friction_unit = scale->load_n / (impedance * scale->speed_m_per_s);
 
     scale->damping = params->damping_n_s_per_m / impedance;
-    scale->stiffness = (params->stiffness_contact_n_per_m + params->stiffness_caliper_n_per_m) /
-                       params->stiffness_normal_n_per_m;
+    scale->stiffness =
+        (params->stiffness_contact_n_per_m + params->stiffness_caliper_n_per_m) / params->stiffness_normal_n_per_m;
     scale->friction = params->friction_static_ratio * friction_unit;
     scale->friction_slope = params->friction_slope_s_per_m * scale->load_n / impedance;
     scale->has_floor = params->friction_floor_ratio > -1e29f;

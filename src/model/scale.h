@@ -34,12 +34,12 @@ struct scale {
     float step_s;          /* physical duration of one model step */
 
     /* dimensionless groups */
-    float damping;         /* C = c/sqrt(m ke) */
-    float stiffness;       /* Z2 = (kt + k)/ke, beta + gamma of the paper */
-    float friction;        /* mu = mu_s n_max/(sqrt(m ke) Vref) */
-    float friction_slope;  /* eps = alpha n_max/sqrt(m ke) */
-    float friction_floor;  /* mu_floor in the unit of mu; meaningful if has_floor */
-    float normal_damping;  /* Cn = cn/sqrt(m ke) */
+    float damping;        /* C = c/sqrt(m ke) */
+    float stiffness;      /* Z2 = (kt + k)/ke, beta + gamma of the paper */
+    float friction;       /* mu = mu_s n_max/(sqrt(m ke) Vref) */
+    float friction_slope; /* eps = alpha n_max/sqrt(m ke) */
+    float friction_floor; /* mu_floor in the unit of mu; meaningful if has_floor */
+    float normal_damping; /* Cn = cn/sqrt(m ke) */
     bool has_floor;
     uint32_t length_shift; /* integer readers see x/2^length_shift, so that it fits where Z2 is small */
 

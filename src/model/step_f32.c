@@ -11,7 +11,7 @@
 
 /* What is left of the step, and what of it is to be reported. */
 struct progress {
-    float rest; /* still to go, in 1/wn */
+    float rest;    /* still to go, in 1/wn */
     bool is_whole; /* nothing was cut off yet */
     float stick, slip_minus;
     unsigned events, contacts;
@@ -23,10 +23,7 @@ struct slip_end {
     float x, v;
 };
 
-static float signed_by(int8_t sign, float value)
-{
-    return sign < 0 ? -value : value;
-}
+static float signed_by(int8_t sign, float value) { return sign < 0 ? -value : value; }
 
 /* Signed friction coefficient at speed v while slipping to the side sign: s mu(|vr|) = s mu + eps vr, not below the floor.
  * Mirrored states give mirrored bits. */
@@ -50,8 +47,9 @@ static float acceleration(const struct step_f32_coeffs *c, float disc, int8_t si
 }
 
 /* RK4 over one piece, from the acceleration at its start. */
-BASE_INLINE void slip_as(const struct step_f32 *s, const struct step_f32_coeffs *c, const struct normal_f32_piece *piece,
-                         float duration, float a1, struct slip_end *end, bool has_floor)
+BASE_INLINE void slip_as(const struct step_f32 *s, const struct step_f32_coeffs *c,
+                         const struct normal_f32_piece *piece, float duration, float a1, struct slip_end *end,
+                         bool has_floor)
 {
     const float half = 0.5f * duration;
     const float sixth = duration * (1.0f / 6.0f);
@@ -254,9 +252,9 @@ static float cut_at_contact(const struct step_f32 *s, const struct step_f32_coef
         struct hermite_f32 gap = hermite_f32_make(sign * normal->y, sign * normal->w * duration, sign * piece->y,
                                                   sign * piece->w * duration);
 
-        part = gap.value0 > 0.0f      ? hermite_f32_root(&gap, 1.0f) * duration
+        part = gap.value0 > 0.0f   ? hermite_f32_root(&gap, 1.0f) * duration
                : gap.slope0 > 0.0f ? hermite_f32_root_after_start(&gap) * duration
-                                      : 0.0f;
+                                   : 0.0f;
     }
     *changes = true;
     if (part > 0.0f) {

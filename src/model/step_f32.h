@@ -13,8 +13,8 @@
 struct step_f32_coeffs {
     float damping, stiffness, friction, slope, floor; /* C, Z2, mu, eps, floor of mu */
     bool has_floor;
-    bool is_naive;        /* RK4 on the raw sign, no stick: for comparison only */
-    float output_length;  /* 1/2^length_shift */
+    bool is_naive;       /* RK4 on the raw sign, no stick: for comparison only */
+    float output_length; /* 1/2^length_shift */
     struct normal_f32_coeffs normal;
 };
 
@@ -24,8 +24,8 @@ struct step_f32_input {
 };
 
 struct step_f32 {
-    float x, v; /* displacement and velocity of the pad along the disc */
-    float disc; /* disc speed held over the present step */
+    float x, v;  /* displacement and velocity of the pad along the disc */
+    float disc;  /* disc speed held over the present step */
     int8_t mode; /* enum plant_mode */
     struct normal_f32 normal;
 };

@@ -83,8 +83,8 @@ static void widen(int32_t value, int32_t *low, int32_t *high)
 static void book_turn(struct detector *detector, const struct plant_output *output)
 {
     const bool is_maximum = detector->v1 > 0;
-    const int32_t extreme = extremum_of_displacement(detector->x1, detector->v1, output->x, output->v,
-                                                     detector->config.step_q27);
+    const int32_t extreme =
+        extremum_of_displacement(detector->x1, detector->v1, output->x, output->v, detector->config.step_q27);
 
     widen(extreme, &detector->now.x_min, &detector->now.x_max);
     if (is_maximum) {
@@ -93,8 +93,7 @@ static void book_turn(struct detector *detector, const struct plant_output *outp
         const uint32_t whole = before + (fixed_abs(output->v) >> 1) + 1u;
 
         detector->peak_x[slot] = extreme;
-        detector->peak_time_q8[slot] =
-            ((uint32_t)detector->step << 8) + (extremum_ratio_q15(before, whole) >> 7);
+        detector->peak_time_q8[slot] = ((uint32_t)detector->step << 8) + (extremum_ratio_q15(before, whole) >> 7);
         detector->peaks++;
     }
 }
@@ -236,9 +235,17 @@ const char *detector_propensity_name(uint8_t propensity)
 
 const char *detector_class_name(uint8_t motion)
 {
-    static const char *const names[] = {"unsettled", "rest",  "decaying",         "growing",
-                                        "forced",    "stickslip", "cross",        "limitcycle-slip",
-                                        "limitcycle-stickslip", "aperiodic", "diverging"};
+    static const char *const names[] = {"unsettled",
+                                        "rest",
+                                        "decaying",
+                                        "growing",
+                                        "forced",
+                                        "stickslip",
+                                        "cross",
+                                        "limitcycle-slip",
+                                        "limitcycle-stickslip",
+                                        "aperiodic",
+                                        "diverging"};
 
     return motion < sizeof names / sizeof names[0] ? names[motion] : "?";
 }

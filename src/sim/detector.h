@@ -42,28 +42,28 @@ enum detector_class {
 /* What the detector must know of the plant, derived with the scale. Speeds in Q4.27 of Vref. */
 struct detector_config {
     uint32_t steps_per_period;
-    int32_t step_q27;        /* h in units of x per v */
-    uint32_t stiffness_q16;  /* weight of x against v in the strobe's distance: Z2 in units of x, squared */
-    uint32_t gain_q16;       /* forced speed of the pad per speed of the normal oscillation */
-    int32_t load_speed;      /* normal speed that a sine of the load explains */
-    int32_t load_response;   /* speed of the pad that it explains */
+    int32_t step_q27;       /* h in units of x per v */
+    uint32_t stiffness_q16; /* weight of x against v in the strobe's distance: Z2 in units of x, squared */
+    uint32_t gain_q16;      /* forced speed of the pad per speed of the normal oscillation */
+    int32_t load_speed;     /* normal speed that a sine of the load explains */
+    int32_t load_response;  /* speed of the pad that it explains */
 };
 
 /* The verdict of the last full frame, in the units of struct plant_output. */
 struct detector_verdict {
-    uint32_t frame;        /* frames since reset */
-    uint8_t propensity;    /* enum detector_propensity */
-    uint8_t motion;        /* enum detector_class */
-    uint8_t period;        /* multiplicity, 0 where it does not apply */
-    bool has_growth;       /* growth could be measured */
-    int32_t growth_q16;    /* log2 of the free amplitude per frame */
+    uint32_t frame;     /* frames since reset */
+    uint8_t propensity; /* enum detector_propensity */
+    uint8_t motion;     /* enum detector_class */
+    uint8_t period;     /* multiplicity, 0 where it does not apply */
+    bool has_growth;    /* growth could be measured */
+    int32_t growth_q16; /* log2 of the free amplitude per frame */
     int32_t growth_error_q16;
     int32_t x_max, x_min, v_max, v_min; /* over the window */
-    int32_t acceleration;  /* largest change of v in a step, over the window */
-    uint64_t variance;     /* of v over the last frame, in 2^-32 */
-    int32_t disc;          /* disc speed at the end of the frame */
-    uint32_t stick, slip_minus; /* shares of the window, PLANT_SHARE_ONE = all */
-    uint32_t cycles;       /* between first and last upward passage in the window, and the steps they took in Q15 */
+    int32_t acceleration;               /* largest change of v in a step, over the window */
+    uint64_t variance;                  /* of v over the last frame, in 2^-32 */
+    int32_t disc;                       /* disc speed at the end of the frame */
+    uint32_t stick, slip_minus;         /* shares of the window, PLANT_SHARE_ONE = all */
+    uint32_t cycles; /* between first and last upward passage in the window, and the steps they took in Q15 */
     uint64_t cycle_steps_q15;
 };
 
@@ -98,8 +98,8 @@ struct detector {
     uint32_t periods;
     /* the window */
     struct detector_frame frames[DETECTOR_WINDOW_FRAMES];
-    uint32_t frame; /* frames since the window was restarted */
-    uint32_t evidence; /* for squeal, gathered frame by frame, forgotten slowly */
+    uint32_t frame;            /* frames since the window was restarted */
+    uint32_t evidence;         /* for squeal, gathered frame by frame, forgotten slowly */
     int32_t level, hysteresis; /* of the crossings */
     bool is_below;
     uint64_t step;

@@ -3,15 +3,15 @@
 #include "sim/detector_parts.h"
 
 enum {
-    NOISE_SUM = 1 << 20,     /* squared changes of a frame below this are rounding */
-    GROWTH_LEAST_Q16 = 38,   /* 5e-5 a period: slower than this is no growth */
-    EVIDENCE_GAIN = 4,       /* a frame with squeal */
-    EVIDENCE_ENTER = 12,     /* three frames */
-    EVIDENCE_MAX = 16,       /* forgotten after 128 quiet periods */
-    FLOOR_SHIFT = 6,         /* motion below 1/64 of the disc's speed is none */
+    NOISE_SUM = 1 << 20,   /* squared changes of a frame below this are rounding */
+    GROWTH_LEAST_Q16 = 38, /* 5e-5 a period: slower than this is no growth */
+    EVIDENCE_GAIN = 4,     /* a frame with squeal */
+    EVIDENCE_ENTER = 12,   /* three frames */
+    EVIDENCE_MAX = 16,     /* forgotten after 128 quiet periods */
+    FLOOR_SHIFT = 6,       /* motion below 1/64 of the disc's speed is none */
     FLOOR_MIN = 1 << 12,
     FLOOR_DISC_STOPPED = 1 << 17,
-    SHARE_LEAST_SHIFT = 20   /* a share within 1e-6 of none or all is none or all */
+    SHARE_LEAST_SHIFT = 20 /* a share within 1e-6 of none or all is none or all */
 };
 
 /* Steps of a frame as a power of two. */
@@ -78,8 +78,7 @@ static void widen(struct detector_verdict *verdict, const struct detector_frame 
     verdict->x_min = frame->x_min < verdict->x_min ? frame->x_min : verdict->x_min;
     verdict->v_max = frame->v_max > verdict->v_max ? frame->v_max : verdict->v_max;
     verdict->v_min = frame->v_min < verdict->v_min ? frame->v_min : verdict->v_min;
-    verdict->acceleration =
-        frame->acceleration > verdict->acceleration ? frame->acceleration : verdict->acceleration;
+    verdict->acceleration = frame->acceleration > verdict->acceleration ? frame->acceleration : verdict->acceleration;
 }
 
 /* Mean share a step of filled frames (1 ... 4), without a 64-bit division: a frame has a power of two of steps. */
@@ -126,8 +125,7 @@ static bool has_events(const struct detector *detector, const struct detector_fr
     const uint64_t whole =
         (uint64_t)detector->config.steps_per_period * DETECTOR_FRAME_PERIODS * (uint64_t)PLANT_SHARE_ONE;
     const uint64_t least = whole >> SHARE_LEAST_SHIFT;
-    const uint64_t against =
-        detector->verdict.disc >= 0 ? frame->slip_minus : whole - frame->stick - frame->slip_minus;
+    const uint64_t against = detector->verdict.disc >= 0 ? frame->slip_minus : whole - frame->stick - frame->slip_minus;
     const uint64_t share = frame->stick + against;
 
     return share > least && share < whole - least;
@@ -155,7 +153,8 @@ static uint32_t forced_speed(const struct detector *detector, const struct detec
     const uint32_t normal = normal_speed(frame);
     const uint32_t from_load = (uint32_t)detector->config.load_speed;
     const uint32_t free = normal > from_load ? normal - from_load : 0u;
-    const uint64_t speed = (((uint64_t)free * detector->config.gain_q16) >> 16) + (uint32_t)detector->config.load_response;
+    const uint64_t speed =
+        (((uint64_t)free * detector->config.gain_q16) >> 16) + (uint32_t)detector->config.load_response;
 
     return speed < INT32_MAX ? (uint32_t)speed : INT32_MAX;
 }
@@ -189,7 +188,8 @@ static bool is_growing(const struct detector_verdict *verdict)
 /* More motion than the normal oscillation explains, and it does not die out; that takes a full window to know. */
 static bool is_self_excited(const struct detector *detector, const struct detector_window *window)
 {
-    return detector->frame >= DETECTOR_WINDOW_FRAMES && window->speed > window->forced + window->forced / 2u + 2u * window->floor &&
+    return detector->frame >= DETECTOR_WINDOW_FRAMES &&
+           window->speed > window->forced + window->forced / 2u + 2u * window->floor &&
            !is_decaying(&detector->verdict);
 }
 

@@ -22,10 +22,7 @@ static void finish(struct detector *detector, enum detector_class motion, uint32
     detector->verdict.period = (uint8_t)period;
 }
 
-static bool sticks(const struct detector *detector)
-{
-    return detector->verdict.stick > 0u;
-}
+static bool sticks(const struct detector *detector) { return detector->verdict.stick > 0u; }
 
 /* Name of a motion for which no period was found. */
 static void finish_without_period(struct detector *detector, const struct detector_window *window)

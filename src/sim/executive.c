@@ -204,10 +204,7 @@ void executive_grant(struct executive *executive, uint32_t steps)
     word_write(&executive->granted, word_read(&executive->granted) + steps);
 }
 
-void executive_free_run(struct executive *executive)
-{
-    word_write(&executive->is_free, 1u);
-}
+void executive_free_run(struct executive *executive) { word_write(&executive->is_free, 1u); }
 
 void executive_stop(struct executive *executive)
 {
@@ -228,15 +225,9 @@ bool executive_wants_tick(const struct executive *executive)
     return word_read(&executive->is_free) != 0u || executive_credit(executive) != 0u;
 }
 
-const struct params *executive_params(const struct executive *executive)
-{
-    return &executive->draft.plan.params;
-}
+const struct params *executive_params(const struct executive *executive) { return &executive->draft.plan.params; }
 
-const struct sim_plan *executive_plan(const struct executive *executive)
-{
-    return &executive->draft.plan;
-}
+const struct sim_plan *executive_plan(const struct executive *executive) { return &executive->draft.plan; }
 
 void executive_report(const struct executive *executive, struct executive_report *report)
 {

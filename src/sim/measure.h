@@ -10,13 +10,13 @@
 
 /* In the units of struct plant_output unless said otherwise. */
 struct measure {
-    uint64_t planned, done;     /* steps */
+    uint64_t planned, done; /* steps */
     int32_t x_max, x_min, v_max, v_min;
-    uint64_t stick, slip_minus; /* sums of shares, PLANT_SHARE_ONE a step */
-    uint32_t crossings;         /* upward passages of the level, second half only */
+    uint64_t stick, slip_minus;   /* sums of shares, PLANT_SHARE_ONE a step */
+    uint32_t crossings;           /* upward passages of the level, second half only */
     uint64_t first_q15, last_q15; /* their first and last instant, steps since the start in Q15 */
-    int32_t level;              /* middle of the extremes of the first half */
-    int32_t step_q27;           /* h in units of x per v */
+    int32_t level;                /* middle of the extremes of the first half */
+    int32_t step_q27;             /* h in units of x per v */
     /* the two samples before the present one */
     int32_t x1, v1, v2;
     uint32_t smooth; /* samples in a row that lie in one slip regime without an event */

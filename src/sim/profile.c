@@ -5,10 +5,7 @@
 
 #define STEPS_MAX 4.0e9f /* later than this is never */
 
-static float in_steps(float time_s, const struct scale *scale)
-{
-    return fmath_min(time_s / scale->step_s, STEPS_MAX);
-}
+static float in_steps(float time_s, const struct scale *scale) { return fmath_min(time_s / scale->step_s, STEPS_MAX); }
 
 static void set_times(struct profile *profile, float start_s, float end_s, const struct scale *scale)
 {

@@ -81,8 +81,7 @@ static void watch_v10(struct sim *sim, int32_t v_before)
     }
     sim->has_v10 = true;
     sim->v10_step = sim->step;
-    sim->v10_fraction_q15 =
-        before < limit ? extremum_ratio_q15((uint32_t)limit - before, now - before) : 0u;
+    sim->v10_fraction_q15 = before < limit ? extremum_ratio_q15((uint32_t)limit - before, now - before) : 0u;
 }
 
 static void count(struct sim *sim)
