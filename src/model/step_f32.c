@@ -172,7 +172,7 @@ static void slip_piece(struct step_f32 *s, const struct step_f32_coeffs *c, stru
         progress->is_capped = true;
         place = -1.0f;
     }
-    if (BASE_LIKELY(place < 0.0f)) {
+    if (BASE_LIKELY(!(place >= 0.0f))) { /* NaN goes on too, to be caught by the domain check */
         advance(s, progress, piece, duration);
         s->x = end.x;
         s->v = end.v;
