@@ -121,6 +121,7 @@ static void row_set(struct row *row)
 
     (void)row_send(row, "defaults");
     line_append_cells(row, line, PAIRS(mechanics));
+    line_append(row, line, "alpha", "0"); /* the default slope may be too steep for these mechanics */
     line_append(row, line, "contact", contacts[cell_choice(row, "contact", sizeof contacts / sizeof contacts[0])]);
     line_append(row, line, "spp", row->plan->spp);
     line_append(row, line, "normal", row->plan->normal);
