@@ -11,6 +11,7 @@
 
 #define SOUND_LEAST_S 0.6     /* of physical time; a tone is hard to judge in less */
 #define SOUND_LOWEST_HZ 200.0 /* below this it is a groan that small speakers do not play */
+#define DISC_SLOWS 0.05       /* a disc that loses this share of its speed within an act is being stopped */
 #define TICK_FASTEST_HZ 4000.0
 #define TICK_SLOWEST_HZ 10.0
 #define TICK_RATIO 0.9 /* between two tries */
@@ -24,6 +25,12 @@ bool play_is_audible(const struct act *act)
 double play_length_s(const struct act *act)
 {
     return act->count < 2 ? 0.0 : act->samples[act->count - 1].t_s - act->samples[act->start].t_s;
+}
+
+bool play_is_stop(const struct act *act)
+{
+    return act->count > 1 &&
+           act->samples[act->count - 1].disc_m_per_s < (1.0 - DISC_SLOWS) * act->samples[act->start].disc_m_per_s;
 }
 
 /* Adds a line to a growing text, with LF before it unless it is the first. */
@@ -121,7 +128,7 @@ static bool prolong(struct story *story, struct act *act)
     char line[SESSION_COMMAND_MAX];
     const double left_s = SOUND_LEAST_S - play_length_s(act);
 
-    if (!play_is_audible(act) || act->count < act->start + 2 || left_s <= 0.0) {
+    if (!play_is_audible(act) || play_is_stop(act) || act->count < act->start + 2 || left_s <= 0.0) {
         return true;
     }
     const struct sample *first = &act->samples[act->start];

@@ -11,6 +11,9 @@ void play_all(struct story *story);
 /* Does the act end in a squeal that can be heard? */
 bool play_is_audible(const struct act *act);
 
+/* Does the disc slow down in the act? */
+bool play_is_stop(const struct act *act);
+
 /* Physical time that the act's last run covers, s. */
 double play_length_s(const struct act *act);
 

@@ -15,7 +15,6 @@
 #include <sys/stat.h>
 
 #define SOUND_LONGEST_S 10.0
-#define DISC_SLOWS 0.05 /* a disc that loses this share of its speed within an act is being stopped */
 
 void story_fail(struct story *story, const char *format, ...)
 {
@@ -68,12 +67,6 @@ static void sound_write(struct story *story)
     story_wrote(story, path, what);
 }
 
-static bool is_stop(const struct act *act)
-{
-    return act->count > 1 &&
-           act->samples[act->count - 1].disc_m_per_s < (1.0 - DISC_SLOWS) * act->samples[0].disc_m_per_s;
-}
-
 static void pictures_draw(struct story *story)
 {
     if (!plot_is_possible()) {
@@ -82,7 +75,7 @@ static void pictures_draw(struct story *story)
     }
     for (size_t i = 0; i < story->act_count; i++) {
         plot_phase(story, &story->acts[i]);
-        if (is_stop(&story->acts[i])) {
+        if (play_is_stop(&story->acts[i])) {
             plot_stop(story, &story->acts[i]);
         }
     }
