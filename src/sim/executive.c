@@ -201,7 +201,11 @@ void executive_measure(struct executive *executive, uint64_t steps)
 
 void executive_grant(struct executive *executive, uint32_t steps)
 {
-    word_write(&executive->granted, word_read(&executive->granted) + steps);
+    const uint32_t used = word_read(&executive->used);
+    const uint32_t granted = word_read(&executive->granted);
+
+    /* Less than nothing, after a stop that the interrupt cut in two: start from what was used. */
+    word_write(&executive->granted, (granted - used > EXECUTIVE_GRANT_MAX ? used : granted) + steps);
 }
 
 void executive_free_run(struct executive *executive) { word_write(&executive->is_free, 1u); }
