@@ -92,6 +92,36 @@ float plants_largest_v(struct plant *plant, uint32_t steps)
     return largest;
 }
 
+void plants_executive(struct executive *executive, const char *assignments)
+{
+    const struct params params = plants_params(assignments);
+
+    executive_init(executive);
+    (void)executive_reset(executive, &params);
+    executive_tick(executive, false);
+}
+
+enum error plants_order(struct executive *executive, const char *assignments, bool may_reset, bool *was_reset)
+{
+    const struct params params = plants_params(assignments);
+
+    return executive_set(executive, &params, may_reset, was_reset).error;
+}
+
+void plants_ticks(struct executive *executive, uint32_t count)
+{
+    for (uint32_t i = 0u; i < count; i++) {
+        executive_tick(executive, true);
+    }
+}
+
+void plants_spend(struct executive *executive)
+{
+    while (executive_wants_tick(executive)) {
+        executive_tick(executive, true);
+    }
+}
+
 uint32_t plants_scaled(uint32_t hosted, uint32_t on_board) { return tap_is_hosted() ? hosted : on_board; }
 
 float plants_random(uint32_t *state, float low, float high)

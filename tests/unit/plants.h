@@ -1,9 +1,10 @@
-/* What the tests of the plant share: a plant from assignments as a person would type them, and how to run it. */
+/* What the tests of the plant share: a plant from assignments as a person would type them, and how to run it; the same for an executive. */
 #ifndef PLANTS_H
 #define PLANTS_H
 
 #include <stdint.h>
 
+#include "sim/executive.h"
 #include "sim/sim.h"
 
 struct plant {
@@ -32,6 +33,16 @@ float plants_x_m(const struct plant *plant);
 
 /* Largest |v| in the model's units over the next steps. */
 float plants_largest_v(struct plant *plant, uint32_t steps);
+
+/* An executive from assignments, the order taken but no step made. */
+void plants_executive(struct executive *executive, const char *assignments);
+
+/* Orders a set as executive_set() does. */
+enum error plants_order(struct executive *executive, const char *assignments, bool may_reset, bool *was_reset);
+
+/* So many ticks; as many as the credit lasts. */
+void plants_ticks(struct executive *executive, uint32_t count);
+void plants_spend(struct executive *executive);
 
 /* A count for the host, or a part of it for a board. */
 uint32_t plants_scaled(uint32_t hosted, uint32_t on_board);
