@@ -1,0 +1,12 @@
+/* From a line to what it does: the table is commands.def. */
+#ifndef PROTOCOL_COMMANDS_H
+#define PROTOCOL_COMMANDS_H
+
+#include "protocol/console.h"
+
+enum { COMMANDS_VERSION = 1 };
+
+/* Obeys the line in console->command: answers it, or starts a task that will. [MAIN] */
+void commands_obey(struct console *console);
+
+#endif

@@ -1,0 +1,44 @@
+/* What the plant did, in SI: the fields of measure and verdict. What makes no sense is nan. */
+#ifndef PROTOCOL_REPORT_H
+#define PROTOCOL_REPORT_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "base/text.h"
+#include "sim/executive.h"
+
+/* The verdict as numbers for people. While the propensity is unknown nothing has been measured: all nan. */
+struct report_verdict {
+    uint8_t propensity; /* enum detector_propensity */
+    uint8_t motion;     /* enum detector_class */
+    uint8_t period;
+    float amplitude_um;  /* half the range of x over the window */
+    float velocity_mm_s; /* half the range of v */
+    float velocity_mm_s_rms;
+    float level_db;       /* of the rms velocity, re 1 nm/s */
+    float acceleration_g; /* largest change of v in a step, over the step */
+    float frequency_hz;   /* nan at rest */
+    const char *band;     /* groan, squeal or none */
+    bool is_audible;
+    float level_dba_estimate; /* see report_sound_level() */
+    float growth_per_s, growth_error_per_s;
+    float stick, slip_minus; /* shares of the time */
+};
+
+struct report_verdict report_judge(const struct executive_report *report, const struct sim_plan *plan);
+
+/* Estimate of the sound pressure level of a pad that moves with this rms velocity, for tones in which the A-weighting lies
+ * within 2 dB of nothing (0.8 to 9 kHz); nan elsewhere. The pad is taken as a rigid piston of 0.01 m2 with radiation
+ * efficiency 1 that radiates into a half space, heard at 0.5 m: p = rho c v sqrt(S/(2 pi r^2)), rho c = 413 N s/m3. Real
+ * brakes radiate with other areas and efficiencies; the number ranks, it does not certify. */
+float report_sound_level(float velocity_m_per_s_rms, float frequency_hz);
+
+/* Fields " key=value" of the answers. [MAIN] */
+void report_write_verdict(struct text *text, const struct executive_report *report, const struct sim_plan *plan);
+void report_write_measure(struct text *text, const struct executive_report *report, const struct sim_plan *plan);
+
+/* A float as a field, nine digits; nan if it is not finite. */
+void report_field(struct text *text, const char *key, float value);
+
+#endif

@@ -1,0 +1,240 @@
+/* The commands that show and change the set. */
+#include "base/compiler.h"
+#include "model/presets.h"
+#include "protocol/console_parts.h"
+#include "protocol/values.h"
+
+static const char no_parameter[] = "no parameter has this name; list shows them";
+
+static void write_word(struct text *text, struct token word)
+{
+    for (size_t i = 0u; i < word.length; i++) {
+        text_put(text, word.start[i]);
+    }
+}
+
+static void list_one(struct console *console, const struct params_info *info)
+{
+    struct text *text = console->text;
+
+    console_begin_body(console);
+    text_write(text, info->symbol);
+    text_write(text, " = ");
+    values_write(text, info, params_value(executive_params(console->executive), info));
+    values_write_unit(text, info);
+    text_write(text, " [");
+    values_write_range(text, info, info->low, info->high);
+    text_write(text, info->change == PARAMS_LIVE ? "] live  " : "] restart  ");
+    text_write(text, info->help);
+    console_end(console);
+}
+
+void settings_list(struct console *console)
+{
+    const struct token part = token_first(console->arguments);
+    uint32_t count = 0u;
+    bool by_symbol = false;
+
+    if (token_next(part).length != 0u) {
+        console_refuse_usage(console);
+        return;
+    }
+    for (size_t i = 0u; i < params_count; i++) {
+        by_symbol = by_symbol || token_is_held(part, params_table[i].symbol);
+    }
+    for (size_t i = 0u; i < params_count; i++) {
+        if (token_is_held(part, by_symbol ? params_table[i].symbol : params_table[i].help)) {
+            list_one(console, &params_table[i]);
+            count++;
+        }
+    }
+    console_begin_ok(console);
+    text_key_u64(console->text, "parameters", count);
+    console_end(console);
+}
+
+void settings_get(struct console *console)
+{
+    const struct token word = token_first(console->arguments);
+    const struct params_info *info = params_find(word.start, word.length);
+
+    if (!token_count_is(console->arguments, 1u)) {
+        console_refuse_usage(console);
+        return;
+    }
+    if (info == NULL) {
+        console_refuse(console, ERROR_UNKNOWN_NAME, word, no_parameter);
+        return;
+    }
+    console_begin_ok(console);
+    text_key_text(console->text, info->symbol, "");
+    values_write(console->text, info, params_value(executive_params(console->executive), info));
+    text_key_text(console->text, "unit", "");
+    values_write_unit_word(console->text, info);
+    console_end(console);
+}
+
+static void refuse_problem(struct console *console, const struct params_problem *problem, const struct params *wanted)
+{
+    console_begin_error(console, problem->error);
+    values_write_problem(console->text, problem, wanted);
+    console_end(console);
+}
+
+/* A word that cannot be read as a parameter or as its value. */
+static void refuse_word(struct console *console, enum error error, const struct params_info *info, struct token bad)
+{
+    if (error == ERROR_USAGE) {
+        console_refuse_usage(console);
+        return;
+    }
+    if (info == NULL) {
+        console_refuse(console, error, bad, no_parameter);
+        return;
+    }
+    console_begin_error(console, error);
+    text_key_text(console->text, info->symbol, "");
+    write_word(console->text, bad);
+    text_write(console->text, ": ");
+    if (error == ERROR_OUT_OF_RANGE) {
+        values_write_allowed(console->text, info, info->low, info->high);
+    } else {
+        text_write(console->text, error_text(error));
+    }
+    console_end(console);
+}
+
+/* Orders the set. A plant that stands at its first step has nothing to lose: there the scale follows the set, and every
+ * change is a reset. */
+static struct params_problem order(struct console *console, const struct params *params)
+{
+    struct executive *executive = console->executive;
+    const bool is_running = executive_wants_tick(executive);
+    struct executive_report report;
+    struct params_problem problem;
+
+    executive_report(executive, &report);
+    if (!is_running && report.now.step == 0u && report.now.is_fault == 0u) {
+        problem = executive_reset(executive, params);
+        console->was_reset = problem.error == ERROR_OK;
+        return problem;
+    }
+    return executive_set(executive, params, !is_running, &console->was_reset);
+}
+
+void settings_set(struct console *console)
+{
+    struct params params = *executive_params(console->executive);
+    const struct params_info *info;
+    struct params_problem problem;
+    struct token bad = {"", 0u};
+    enum error error;
+
+    error = presets_assign(&params, console->arguments, &info, &bad.start, &bad.length);
+    if (error != ERROR_OK || token_count_is(console->arguments, 0u)) {
+        refuse_word(console, error == ERROR_OK ? ERROR_USAGE : error, info, bad);
+        return;
+    }
+    problem = order(console, &params);
+    if (problem.error != ERROR_OK) {
+        refuse_problem(console, &problem, &params);
+        return;
+    }
+    console_start_task(console, CONSOLE_TASK_SETTING);
+}
+
+/* Stops and resets to a set, the counters of the run included. */
+static void restart(struct console *console, const struct params *params)
+{
+    const struct params_problem problem = executive_reset(console->executive, params);
+
+    if (problem.error != ERROR_OK) {
+        refuse_problem(console, &problem, params);
+        return;
+    }
+    console->was_reset = true;
+    console_start_task(console, CONSOLE_TASK_SETTING);
+}
+
+static void list_presets(struct console *console)
+{
+    for (size_t i = 0u; i < presets_count; i++) {
+        console_begin_body(console);
+        text_write(console->text, presets_table[i].name);
+        text_write(console->text, "  ");
+        text_write(console->text, presets_table[i].help);
+        console_end(console);
+    }
+    console_begin_ok(console);
+    text_key_u64(console->text, "presets", presets_count);
+    console_end(console);
+}
+
+void settings_preset(struct console *console)
+{
+    const struct token word = token_first(console->arguments);
+    const struct preset *preset = presets_find(word.start, word.length);
+    struct params params;
+
+    if (word.length == 0u) {
+        list_presets(console);
+        return;
+    }
+    if (token_next(word).length != 0u) {
+        console_refuse_usage(console);
+        return;
+    }
+    if (preset == NULL) {
+        console_refuse(console, ERROR_UNKNOWN_NAME, word, "no preset has this name; preset lists them");
+        return;
+    }
+    presets_load(preset, &params);
+    restart(console, &params);
+}
+
+void settings_defaults(struct console *console)
+{
+    struct params params;
+
+    params_default(&params);
+    restart(console, &params);
+}
+
+void settings_reset(struct console *console)
+{
+    const struct params params = *executive_params(console->executive);
+
+    restart(console, &params);
+}
+
+/* What has been set, as it was understood. */
+static void write_assigned(struct console *console, const struct params *params)
+{
+    for (struct token word = token_first(console->arguments); word.length != 0u; word = token_next(token_next(word))) {
+        const struct params_info *info = params_find(word.start, word.length);
+
+        text_key_text(console->text, info->symbol, "");
+        values_write(console->text, info, params_value(params, info));
+    }
+}
+
+void settings_answer(struct console *console, const struct executive_report *report)
+{
+    const struct token name = token_first(console->command);
+
+    if (console->was_reset) {
+        stream_count_anew(&console->stream, console->executive);
+    }
+    console_begin_ok(console);
+    if (token_is(name, "set")) {
+        write_assigned(console, executive_params(console->executive));
+    } else if (token_is(name, "preset")) {
+        text_put(console->text, ' ');
+        write_word(console->text, token_first(console->arguments));
+    }
+    text_key_u64(console->text, "generation", report->generation);
+    if (token_is(name, "set")) {
+        text_key_text(console->text, "reset", console->was_reset ? "yes" : "no");
+    }
+    console_end(console);
+}
