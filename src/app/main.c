@@ -67,6 +67,7 @@ int main(void)
         .is_emulated = hal_board_is_emulated(),
         .baud = hal_uart_baud(HAL_UART_CONSOLE),
     };
+    bool is_busy;
 
     executive_init(&executive);
     isr_init(&executive);
@@ -76,10 +77,10 @@ int main(void)
     for (;;) {
         pump_input();
         tell_console_the_ticks();
-        console_poll(&console);
+        is_busy = console_poll(&console);
         isr_follow();
-        console_poll(&console);
-        if (pump_output()) {
+        is_busy = console_poll(&console) || is_busy;
+        if (pump_output() && !is_busy) {
             hal_idle();
         }
     }
