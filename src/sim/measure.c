@@ -42,8 +42,8 @@ static void book_displacement(struct measure *measure, const struct plant_output
 /* Velocity turns smoothly only inside one slip regime; at an event it has a kink, and the sample is the extreme. */
 static void book_velocity(struct measure *measure, const struct plant_output *output)
 {
-    const bool is_peak = measure->v1 > measure->v2 && measure->v1 > output->v;
-    const bool is_dip = measure->v1 < measure->v2 && measure->v1 < output->v;
+    const bool is_peak = measure->v1 > measure->v2 && measure->v1 >= output->v;
+    const bool is_dip = measure->v1 < measure->v2 && measure->v1 <= output->v;
 
     widen(output->v, &measure->v_min, &measure->v_max);
     measure->smooth = output->events == 0u && output->mode != PLANT_STICK ? measure->smooth + 1u : 0u;
