@@ -17,6 +17,7 @@
 #define BASE_NOINLINE __attribute__((noinline))
 #define BASE_LIKELY(cond) __builtin_expect(!!(cond), 1)
 #define BASE_UNLIKELY(cond) __builtin_expect(!!(cond), 0)
+#define BASE_LEADING_ZEROS(word) ((unsigned)__builtin_clz(word)) /* of a 32-bit word other than 0 */
 #define BASE_COUNT(array) (sizeof(array) / sizeof((array)[0]))
 
 #endif

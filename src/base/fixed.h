@@ -1,12 +1,26 @@
 /* Integer helpers of the fixed-point side: the one place where negative numbers are shifted. Q4.27 is an int32_t whose
- * unit is 2^-27. [ANY, pure] */
+ * unit is 2^-27, Q2.30 one whose unit is 2^-30, and so on. [ANY, pure] */
 #ifndef BASE_FIXED_H
 #define BASE_FIXED_H
 
+#include <stdbool.h>
 #include <stdint.h>
 
 /* Magnitude; defined for INT32_MIN too. */
 static inline uint32_t fixed_abs(int32_t value) { return value < 0 ? 0u - (uint32_t)value : (uint32_t)value; }
+
+/* value / 2^shift rounded down; shift 0 ... 63. C99 leaves this shift to the compiler; gcc and clang keep the sign, and a
+ * unit test asks them. */
+static inline int64_t fixed_floor(int64_t value, unsigned shift) { return value >> shift; }
+
+/* value / 2 to nearest, halves up, in 32 bits; value < INT32_MAX. */
+static inline int32_t fixed_half_up(int32_t value) { return (value + 1) >> 1; }
+
+/* value / 2^shift to nearest, halves up; shift 1 ... 62. The cheaper rounding, for numbers that have no mirror image. */
+static inline int64_t fixed_round_up(int64_t value, unsigned shift)
+{
+    return fixed_floor(value + ((int64_t)1 << (shift - 1u)), shift);
+}
 
 /* value / 2^shift, rounded to nearest, halves away from zero, so that mirrored values stay mirrored; shift 1 ... 62. */
 static inline int64_t fixed_shift_right(int64_t value, unsigned shift)
@@ -17,10 +31,44 @@ static inline int64_t fixed_shift_right(int64_t value, unsigned shift)
                      : (int64_t)(((uint64_t)value + half) >> shift);
 }
 
+/* a b / 2^shift in the same rounding, for a product that fits 32 bits then. */
+static inline int32_t fixed_product(int32_t a, int32_t b, unsigned shift)
+{
+    return (int32_t)fixed_shift_right((int64_t)a * b, shift);
+}
+
 /* The nearest value that fits 32 bits, symmetric: never INT32_MIN. */
 static inline int32_t fixed_saturate(int64_t value)
 {
     return value > INT32_MAX ? INT32_MAX : value < -INT32_MAX ? -INT32_MAX : (int32_t)value;
+}
+
+/* The same, remembering that it had to; *is_saturated is never cleared here. */
+static inline int32_t fixed_saturate_and_tell(int64_t value, bool *is_saturated)
+{
+    const int32_t fit = fixed_saturate(value);
+
+    if (fit != value) {
+        *is_saturated = true;
+    }
+    return fit;
+}
+
+/* Bits that the magnitude takes, 0 for 0. */
+unsigned fixed_bits(uint64_t magnitude);
+
+/* part/whole in Q30 for 0 <= part <= whole, whole > 0; relative error below 2^-14, never above 1. One division of 32
+ * bits. */
+uint32_t fixed_ratio_q30(uint32_t part, uint32_t whole);
+
+/* factor value 2^exponent, rounded to nearest, halves away from zero; |factor| <= 2^38. What exceeds 2^62 is held there;
+ * NaN counts as infinite. No floating-point operation. */
+int64_t fixed_times_float(int64_t factor, float value, int exponent);
+
+/* value in a format with so many fraction bits, saturated. */
+static inline int32_t fixed_from_float(float value, int fraction_bits)
+{
+    return fixed_saturate(fixed_times_float(1, value, fraction_bits));
 }
 
 /* Base-2 logarithm of value >= 1 in Q16, error below 2^-15. */

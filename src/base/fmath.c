@@ -91,36 +91,53 @@ float fmath_sqrt(float value)
 /* High word of a product: fixed point times fixed point. */
 static uint32_t multiply_high(uint32_t a, uint32_t b) { return (uint32_t)((uint64_t)a * b >> 32); }
 
-float fmath_sine_turns(uint32_t turns)
+/* The part of a quarter wave that a turn stands on, quarter turns * 2^30; the upper half of a turn is negative. */
+static uint32_t fold(uint32_t turns)
 {
-    const bool is_negative = turns > HALF_TURN;
-    const uint32_t half = is_negative ? 0u - turns : turns;
-    uint32_t x = half > QUARTER_TURN ? HALF_TURN - half : half; /* quarter turns * 2^30 */
-    int exponent = -28;
+    const uint32_t half = turns > HALF_TURN ? 0u - turns : turns;
 
-    if (x == 0u) {
-        return 0.0f;
-    }
+    return half > QUARTER_TURN ? HALF_TURN - half : half;
+}
 
-    /* sin(pi/2 x) / x as an alternating polynomial of x squared, minimax on 0..1 with an error of 3.4e-9 in the sine.
-     * The coefficients carry 2^30, z carries 2^32 and stops just short of 1. */
+/* sin(pi/2 x)/x as an alternating polynomial of x squared, minimax on 0..1 with an error of 3.4e-9 in the sine. Argument
+ * and coefficients carry 2^30, z carries 2^32 and stops just short of 1. */
+static uint32_t sine_ratio(uint32_t x)
+{
     const uint32_t square = multiply_high(x << 1, x << 1);
     const uint32_t z = square < QUARTER_TURN ? square << 2 : UINT32_MAX;
     uint32_t sum = 5016767u - multiply_high(161942u, z);
 
     sum = 85564854u - multiply_high(sum, z);
     sum = 693597876u - multiply_high(sum, z);
-    sum = 1686629674u - multiply_high(sum, z);
+    return 1686629674u - multiply_high(sum, z);
+}
 
+float fmath_sine_turns(uint32_t turns)
+{
+    uint32_t x = fold(turns);
+    const uint32_t ratio = sine_ratio(x);
+    int exponent = -28;
+
+    if (x == 0u) {
+        return 0.0f;
+    }
     /* A small angle moves up, so that it keeps all its digits. */
     while (x < QUARTER_TURN / 2u) {
         x <<= 1;
         exponent--;
     }
 
-    const float sine = (float)multiply_high(x, sum) * power_of_two(exponent);
+    const float sine = (float)multiply_high(x, ratio) * power_of_two(exponent);
 
-    return is_negative ? -sine : sine;
+    return turns > HALF_TURN ? -sine : sine;
+}
+
+int32_t fmath_sine_turns_q30(uint32_t turns)
+{
+    const uint32_t x = fold(turns);
+    const int32_t sine = (int32_t)(((uint64_t)x * sine_ratio(x) + (1u << 29)) >> 30);
+
+    return turns > HALF_TURN ? -sine : sine;
 }
 
 /* Squaring doubles the logarithm, so each squaring brings one more binary digit of it before the point. */

@@ -15,6 +15,9 @@ float fmath_sqrt(float value);
  * the bit: sine(-t) = -sine(t), sine(half turn - t) = sine(t). */
 float fmath_sine_turns(uint32_t turns);
 
+/* The same in Q30, integers only. Error below 1e-8 and half a unit. */
+int32_t fmath_sine_turns_q30(uint32_t turns);
+
 /* Base-2 logarithm of a positive finite value: error below 2e-7 before the result is rounded to float; a power of two
  * gives its exponent exactly. */
 float fmath_log2(float value);

@@ -175,7 +175,7 @@ static void write_notice(struct console *console, const struct sample *now, cons
     text_key_text(console->text, key, what);
     text_key_u64(console->text, "step", now->step);
     text_key_product(console->text, "t", now->step, scale->step_s, DECIMAL_DIGITS_EXACT);
-    text_key_f32(console->text, "v0", now->disc * scale->speed_m_per_s, DECIMAL_DIGITS_EXACT);
+    text_key_f32(console->text, "v0", sample_value(now, now->disc) * scale->speed_m_per_s, DECIMAL_DIGITS_EXACT);
     text_end_line(console->text);
 }
 

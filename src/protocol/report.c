@@ -188,8 +188,8 @@ void report_write_measure(struct text *text, const struct executive_report *repo
 
     text_key_u64(text, "step", report->now.step);
     text_key_product(text, "t", report->now.step, scale->step_s, DECIMAL_DIGITS_EXACT);
-    report_field(text, "x", report->now.x * scale->length_m);
-    report_field(text, "xd", report->now.v * scale->speed_m_per_s);
+    report_field(text, "x", sample_displacement(&report->now, scale) * scale->length_m);
+    report_field(text, "xd", sample_value(&report->now, report->now.v) * scale->speed_m_per_s);
     report_field(text, "xmax", (float)measure->x_max * metres(scale));
     report_field(text, "xmin", (float)measure->x_min * metres(scale));
     report_field(text, "xpp", range(measure->x_max, measure->x_min) * metres(scale));

@@ -35,14 +35,14 @@ static const char *mode_name(const struct sample *sample)
 /* Only bilateral contact, the paper's, can pull. */
 static float contact_force_n(const struct sample *sample, const struct scale *scale, int contact)
 {
-    const float force_n = sample->y * scale->load_n;
+    const float force_n = sample_value(sample, sample->y) * scale->load_n;
 
     return contact == CONTACT_BILATERAL || force_n > 0.0f ? force_n : 0.0f;
 }
 
 static float friction_ratio(const struct sample *sample, const struct scale *scale, int contact)
 {
-    return sample->friction * scale->force_n / contact_force_n(sample, scale, contact);
+    return sample_value(sample, sample->friction) * scale->force_n / contact_force_n(sample, scale, contact);
 }
 
 static void append_COUNT(struct text *text, const struct scale *scale, uint64_t value)

@@ -1,6 +1,7 @@
 /* Piecewise profiles, evaluated from the step's index alone. */
 #include "sim/profile.h"
 
+#include "base/fixed.h"
 #include "base/fmath.h"
 
 #define STEPS_MAX 4.0e9f /* later than this is never */
@@ -64,6 +65,63 @@ float profile_moving_value(const struct profile *profile, uint64_t step)
         const uint64_t turns = step * profile->turns_per_step + (profile->turns_per_step >> 1);
 
         return profile->from + profile->to * fmath_sine_turns((uint32_t)(turns >> 32));
+    }
+    case PROFILE_CONSTANT:
+    case PROFILE_STEP:
+    default:
+        return profile->to;
+    }
+}
+
+void profile_q27_derive(struct profile_q27 *derived, const struct profile *profile)
+{
+    const float per_step = fmath_min(profile->per_step, 2.0f);
+    const float steps = per_step > 0.0f ? fmath_min(1.0f / per_step, STEPS_MAX) : 0.0f;
+    const float first = (0.5f - profile->start_fraction) * profile->per_step;
+
+    derived->kind = profile->kind;
+    derived->from = fixed_from_float(profile->from, 27);
+    derived->to = fixed_from_float(profile->to, 27);
+    derived->start = profile->start;
+    derived->length = (uint32_t)steps + 1u;
+    derived->first = fixed_times_float(1, fmath_max(fmath_min(first, 1.0f), -1.0f), 60);
+    derived->per_step = fixed_times_float(1, per_step, 60);
+    derived->turns_per_step = profile->turns_per_step;
+}
+
+/* Within the ramp's length a place stays below 1 + 1 + 2, which Q60 holds. */
+static int32_t ramp_value_q27(const struct profile_q27 *profile, uint64_t step)
+{
+    const uint64_t passed = step - profile->start;
+    const int64_t one = INT64_C(1) << 60;
+    int64_t place;
+
+    if (passed > profile->length || profile->per_step == 0) {
+        return profile->to;
+    }
+    place = profile->first + (int64_t)passed * profile->per_step;
+    if (place <= 0) {
+        return profile->from;
+    }
+    if (place >= one) {
+        return profile->to;
+    }
+    return profile->from +
+           (int32_t)fixed_shift_right(((int64_t)profile->to - profile->from) * fixed_floor(place, 30u), 30u);
+}
+
+int32_t profile_q27_moving_value(const struct profile_q27 *profile, uint64_t step)
+{
+    if (step < profile->start) {
+        return profile->from;
+    }
+    switch (profile->kind) {
+    case PROFILE_RAMP:
+        return ramp_value_q27(profile, step);
+    case PROFILE_SINE: {
+        const uint64_t turns = step * profile->turns_per_step + (profile->turns_per_step >> 1);
+
+        return profile->from + fixed_product(profile->to, fmath_sine_turns_q30((uint32_t)(turns >> 32)), 30u);
     }
     case PROFILE_CONSTANT:
     case PROFILE_STEP:

@@ -33,6 +33,28 @@ static inline float profile_value(const struct profile *profile, uint64_t step)
     return profile->kind == PROFILE_CONSTANT ? profile->from : profile_moving_value(profile, step);
 }
 
+/* The same profile in integers: values in Q4.27, a place on the ramp in Q60. */
+struct profile_q27 {
+    enum profile_kind kind;
+    int32_t from, to;
+    uint32_t start;
+    uint32_t length;         /* ramp: steps after which it is over */
+    int64_t first;           /* ramp: place of the middle of the step in which it starts; below 0 before it */
+    int64_t per_step;        /* ramp: way of one step, 2 for anything faster */
+    uint64_t turns_per_step; /* sine: as above */
+};
+
+/* [MAIN] */
+void profile_q27_derive(struct profile_q27 *derived, const struct profile *profile);
+
+int32_t profile_q27_moving_value(const struct profile_q27 *profile, uint64_t step);
+
+/* Value held over the given step. No floating point. [ISR, pure] */
+static inline int32_t profile_q27_value(const struct profile_q27 *profile, uint64_t step)
+{
+    return profile->kind == PROFILE_CONSTANT ? profile->from : profile_q27_moving_value(profile, step);
+}
+
 /* Does the value still move at this step or later, other than by a sine? [ANY] */
 bool profile_is_moving(const struct profile *profile, uint64_t step);
 

@@ -8,10 +8,7 @@
 
 enum { V10_RATIO = 10 };
 
-static int32_t to_q27(float value)
-{
-    return fixed_saturate((int64_t)(fmath_min(value, 15.0f) * (float)(1 << PLANT_FRACTION_BITS)));
-}
+static int32_t to_q27(float value) { return fixed_from_float(fmath_min(value, 15.0f), PLANT_FRACTION_BITS); }
 
 static struct detector_config detector_config(const struct params *params, const struct scale *scale)
 {
@@ -36,18 +33,87 @@ struct params_problem sim_plan_make(struct sim_plan *plan, const struct params *
         return problem;
     }
     plan->params = *params;
+    plan->arithmetic = (uint8_t)params->arithmetic;
     step_f32_configure(&plan->f32, params, &plan->scale);
+    step_q27_configure(&plan->q27, params, &plan->scale);
     profile_load(&plan->load, params, &plan->scale);
     profile_speed(&plan->speed, params, &plan->scale);
+    profile_q27_derive(&plan->load_q27, &plan->load);
+    profile_q27_derive(&plan->speed_q27, &plan->speed);
     plan->detector = detector_config(params, &plan->scale);
     plan->prediction = predictor_predict(params, &plan->scale);
     return problem;
 }
 
-static struct step_f32_input input_of(const struct sim_plan *plan, uint64_t step)
+/* --- The two arithmetics ------------------------------------------------------------------------------------------ */
+
+static struct step_f32_input input_f32(const struct sim_plan *plan, uint64_t step)
 {
     return (struct step_f32_input){profile_value(&plan->load, step), profile_value(&plan->speed, step)};
 }
+
+static struct step_q27_input input_q27(const struct sim_plan *plan, uint64_t step)
+{
+    return (struct step_q27_input){profile_q27_value(&plan->load_q27, step),
+                                   profile_q27_value(&plan->speed_q27, step)};
+}
+
+static void reset_plant(struct sim *sim)
+{
+    const struct sim_plan *plan = sim->plan;
+
+    if (plan->arithmetic == ARITH_Q27) {
+        step_q27_reset(&sim->q27, &plan->q27, &plan->params, &plan->scale, input_q27(plan, 0u));
+        step_q27_report(&sim->q27, &sim->output);
+    } else {
+        step_f32_reset(&sim->f32, &plan->f32, &plan->params, &plan->scale, input_f32(plan, 0u));
+        step_f32_report(&sim->f32, &plan->f32, &sim->output);
+    }
+}
+
+/* Returns false when the plant has left its domain. */
+static bool advance_plant(struct sim *sim)
+{
+    const struct sim_plan *plan = sim->plan;
+
+    if (plan->arithmetic == ARITH_Q27) {
+        step_q27_advance(&sim->q27, &plan->q27, input_q27(plan, sim->step), &sim->output);
+        return !step_q27_is_outside(&sim->q27);
+    }
+    step_f32_advance(&sim->f32, &plan->f32, input_f32(plan, sim->step), &sim->output);
+    return !step_f32_is_outside(&sim->f32);
+}
+
+/* The states as words, in the order in which they are hashed. */
+static void state_words(const struct sim *sim, uint32_t words[4])
+{
+    if (sim->plan->arithmetic == ARITH_Q27) {
+        words[0] = (uint32_t)sim->q27.x;
+        words[1] = (uint32_t)sim->q27.v;
+        words[2] = (uint32_t)sim->q27.normal.y;
+        words[3] = (uint32_t)sim->q27.normal.w;
+    } else {
+        words[0] = fmath_bits(sim->f32.x);
+        words[1] = fmath_bits(sim->f32.v);
+        words[2] = fmath_bits(sim->f32.normal.y);
+        words[3] = fmath_bits(sim->f32.normal.w);
+    }
+}
+
+static void sample_forces(const struct sim *sim, struct sample *sample)
+{
+    if (sim->plan->arithmetic == ARITH_Q27) {
+        sample->load = (uint32_t)sim->q27.normal.n;
+        sample->disc = (uint32_t)sim->q27.disc;
+        sample->friction = (uint32_t)step_q27_friction(&sim->q27, &sim->plan->q27);
+    } else {
+        sample->load = fmath_bits(sim->f32.normal.n);
+        sample->disc = fmath_bits(sim->f32.disc);
+        sample->friction = fmath_bits(step_f32_friction(&sim->f32, &sim->plan->f32));
+    }
+}
+
+/* --- The same for both -------------------------------------------------------------------------------------------- */
 
 void sim_reset(struct sim *sim, const struct sim_plan *plan)
 {
@@ -58,8 +124,7 @@ void sim_reset(struct sim *sim, const struct sim_plan *plan)
     sim->has_v10 = false;
     sim->counters = (struct sim_counters){0};
     sim->measure = (struct measure){0};
-    step_f32_reset(&sim->f32, &plan->f32, &plan->params, &plan->scale, input_of(plan, 0u));
-    step_f32_report(&sim->f32, &plan->f32, &sim->output);
+    reset_plant(sim);
     detector_reset(&sim->detector, &plan->detector, &sim->output);
 }
 
@@ -95,27 +160,31 @@ static void count(struct sim *sim)
     sim->counters.gap_held += output->is_gap_held;
 }
 
-static uint32_t hash_state(uint32_t hash, const struct step_f32 *state)
+static uint32_t hash_state(const struct sim *sim)
 {
-    hash = hash_word(hash, fmath_bits(state->x));
-    hash = hash_word(hash, fmath_bits(state->v));
-    hash = hash_word(hash, fmath_bits(state->normal.y));
-    hash = hash_word(hash, fmath_bits(state->normal.w));
-    return hash_word(hash, (uint32_t)(int32_t)state->mode);
+    uint32_t words[4];
+    uint32_t hash = sim->hash;
+
+    state_words(sim, words);
+    for (unsigned i = 0u; i < 4u; i++) {
+        hash = hash_word(hash, words[i]);
+    }
+    return hash_word(hash, (uint32_t)(int32_t)sim->output.mode);
 }
 
 bool sim_step(struct sim *sim)
 {
     const int32_t v_before = sim->output.v;
     bool has_verdict;
+    bool is_inside;
 
     if (sim->fault != SIM_FAULT_NONE) {
         return false;
     }
-    step_f32_advance(&sim->f32, &sim->plan->f32, input_of(sim->plan, sim->step), &sim->output);
+    is_inside = advance_plant(sim);
     watch_v10(sim, v_before);
     count(sim);
-    if (step_f32_is_outside(&sim->f32)) {
+    if (!is_inside) {
         sim->fault = SIM_FAULT_DOMAIN;
         detector_set_diverged(&sim->detector);
         return true;
@@ -123,7 +192,7 @@ bool sim_step(struct sim *sim)
     sim->step++;
     has_verdict = detector_push(&sim->detector, &sim->output);
     measure_push(&sim->measure, &sim->output);
-    sim->hash = hash_state(sim->hash, &sim->f32);
+    sim->hash = hash_state(sim);
     return has_verdict;
 }
 
@@ -134,15 +203,17 @@ void sim_measure(struct sim *sim, uint64_t steps)
 
 void sim_sample(const struct sim *sim, struct sample *sample)
 {
+    uint32_t words[4];
+
+    state_words(sim, words);
     sample->step = sim->step;
-    sample->x = sim->f32.x;
-    sample->v = sim->f32.v;
-    sample->y = sim->f32.normal.y;
-    sample->w = sim->f32.normal.w;
-    sample->load = sim->f32.normal.n;
-    sample->disc = sim->f32.disc;
-    sample->friction = step_f32_friction(&sim->f32, &sim->plan->f32);
-    sample->mode = sim->f32.mode;
+    sample->x = words[0];
+    sample->v = words[1];
+    sample->y = words[2];
+    sample->w = words[3];
+    sample_forces(sim, sample);
+    sample->mode = sim->output.mode;
+    sample->arithmetic = sim->plan->arithmetic;
     sample->propensity = sim->detector.verdict.propensity;
     sample->is_fault = sim->fault != SIM_FAULT_NONE;
     sample->hash = sim->hash;

@@ -10,6 +10,7 @@
 #include "model/params.h"
 #include "model/scale.h"
 #include "model/step_f32.h"
+#include "model/step_q27.h"
 #include "sim/detector.h"
 #include "sim/measure.h"
 #include "sim/profile.h"
@@ -19,8 +20,11 @@
 struct sim_plan {
     struct params params;
     struct scale scale;
+    uint8_t arithmetic; /* ARITH_F32 or ARITH_Q27: which of the pairs below is in use */
     struct step_f32_coeffs f32;
+    struct step_q27_coeffs q27;
     struct profile load, speed;
+    struct profile_q27 load_q27, speed_q27;
     struct detector_config detector;
     struct prediction prediction;
 };
@@ -41,7 +45,8 @@ enum sim_fault { SIM_FAULT_NONE, SIM_FAULT_DOMAIN };
 
 struct sim {
     const struct sim_plan *plan;
-    struct step_f32 f32;
+    struct step_f32 f32; /* one of the two, as the plan says */
+    struct step_q27 q27;
     struct plant_output output;
     struct detector detector;
     struct measure measure;

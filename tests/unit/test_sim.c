@@ -57,7 +57,7 @@ static void check_fault(void)
                   sim->f32.x == frozen.f32.x && sim->f32.v == frozen.f32.v && sim->f32.normal.y == frozen.f32.normal.y,
               "it stands still then, to the bit");
     sim_sample(sim, &sample);
-    tap_check(sample.is_fault == 1u && sample.step == frozen.step && sample.v == frozen.f32.v, "and can still be read");
+    tap_check(sample.is_fault == 1u && sample.step == frozen.step && sample_value(&sample, sample.v) == frozen.f32.v, "and can still be read");
     sim_apply(sim, &plant.plan);
     tap_check(!sim_step(sim) && sim->step == frozen.step && sim->detector.verdict.motion == CLASS_DIVERGING,
               "a new set does not free it");
@@ -135,11 +135,12 @@ static void check_sample(void)
     plants_start(&plant, "N0 5");
     plants_run_steps(&plant, 77u);
     sim_sample(sim, &sample);
-    tap_check(sample.step == 77u && sample.x == sim->f32.x && sample.v == sim->f32.v && sample.y == sim->f32.normal.y &&
-                  sample.w == sim->f32.normal.w && sample.load == 0.25f && sample.disc == sim->f32.disc &&
+    tap_check(sample.step == 77u && sample.x == fmath_bits(sim->f32.x) && sample.v == fmath_bits(sim->f32.v) &&
+                  sample.y == fmath_bits(sim->f32.normal.y) && sample.w == fmath_bits(sim->f32.normal.w) &&
+                  sample.load == fmath_bits(0.25f) && sample.disc == fmath_bits(sim->f32.disc) &&
                   sample.mode == sim->f32.mode && sample.hash == sim->hash && sample.is_fault == 0u,
               "a record holds the present state");
-    tap_check(sample.friction == step_f32_friction(&sim->f32, &plant.plan.f32), "and friction");
+    tap_check(sample_value(&sample, sample.friction) == step_f32_friction(&sim->f32, &plant.plan.f32), "and friction");
     sim_measure(sim, 64u);
     plants_run_steps(&plant, 100u);
     tap_check(sim->measure.done == 64u && sim->measure.x_max > sim->measure.x_min, "a measurement runs beside");

@@ -1,0 +1,40 @@
+/* Steps of the Q4.27 plant in pieces: where regimes switch inside the step, and wherever the fast path does not serve.
+ * Part of step_q27, in a file of its own; the rules are those of step_f32.c. */
+#ifndef MODEL_EVENT_Q27_H
+#define MODEL_EVENT_Q27_H
+
+#include "model/step_q27.h"
+
+/* What is left of the step, and what of it is to be reported, in fractions of it (Q30). */
+struct event_q27_progress {
+    int32_t rest;
+    bool is_whole; /* nothing was cut off yet */
+    uint32_t stick, slip_minus;
+    unsigned events, contacts;
+    bool is_capped, is_lifted;
+};
+
+void event_q27_step(struct step_q27 *s, const struct step_q27_coeffs *c, struct event_q27_progress *progress);
+
+/* RK4 on the raw sign. */
+void event_q27_naive_step(struct step_q27 *s, const struct step_q27_coeffs *c, struct event_q27_progress *progress);
+
+/* The disc has a new speed. A sticking pad follows if friction can also accelerate it; a slipping one keeps its speed. */
+void event_q27_set_speed(struct step_q27 *s, const struct step_q27_coeffs *c, int32_t speed);
+
+/* h times the force that would hold the pad on the disc, Q55: C v0 + K x. Exact, and so are the decisions on it. */
+BASE_INLINE int64_t event_q27_need(const struct step_q27_coeffs *c, int32_t x, int32_t disc)
+{
+    return -((int64_t)c->drag * disc + (int64_t)c->wide.spring * x);
+}
+
+/* Can friction under the contact force p hold the pad, against an extra need? */
+BASE_INLINE bool event_q27_is_held(const struct step_q27_coeffs *c, int32_t x, int32_t disc, int32_t p, int64_t extra)
+{
+    const int64_t need = event_q27_need(c, x, disc) + extra;
+    const int64_t limit = (int64_t)c->wide.friction * p;
+
+    return need <= limit && -need <= limit;
+}
+
+#endif

@@ -1,0 +1,37 @@
+/* The cubic of hermite_f32.h in integers. Only its roots and its sign are wanted, so its values may have any unit: make
+ * shifts all four coefficients by the same number of bits until the largest takes 28. Places are in Q30. [ANY, pure] */
+#ifndef MODEL_HERMITE_Q27_H
+#define MODEL_HERMITE_Q27_H
+
+#include <stdint.h>
+
+#include "base/fixed.h"
+
+#define HERMITE_Q27_ONE (1 << 30) /* t = 1 */
+
+struct hermite_q27 {
+    int32_t value0, slope0, square, cube; /* f = value0 + t (slope0 + t (square + t cube)), each within 2^28 */
+};
+
+/* The arguments share one unit and lie within 2^58. */
+struct hermite_q27 hermite_q27_make(int64_t value0, int64_t slope0, int64_t value1, int64_t slope1);
+
+/* First root in (0, upper], for f(0) > 0 >= f(upper): secant start, two safeguarded Newton passes. */
+int32_t hermite_q27_root(const struct hermite_q27 *f, int32_t upper);
+
+/* Root in (0, 1] of a curve that starts at f(0) = 0 with slope0 > 0 and ends below 0: the root at 0 is divided out. */
+int32_t hermite_q27_root_after_start(const struct hermite_q27 *f);
+
+/* Place of the minimum inside (0, 1), for slope0 < 0 < slope1. */
+int32_t hermite_q27_minimum(const struct hermite_q27 *f);
+
+/* Four numbers within 2^28: no sum below exceeds 2^30. */
+static inline int32_t hermite_q27_value(const struct hermite_q27 *f, int32_t t)
+{
+    const int32_t bend = f->square + (int32_t)fixed_round_up((int64_t)f->cube * t, 30);
+    const int32_t slope = f->slope0 + (int32_t)fixed_round_up((int64_t)bend * t, 30);
+
+    return f->value0 + (int32_t)fixed_round_up((int64_t)slope * t, 30);
+}
+
+#endif

@@ -1,0 +1,176 @@
+/* The normal direction in Q4.27: the two methods of normal_f32.h, with the same meaning of every function.
+ *
+ * Factors that belong to the step (h, h Cn, the one-step map) are in Q32: nothing of them reaches 1/2, since h Cn <= 0.40.
+ * A place inside the step is a fraction of it in Q30. */
+#ifndef MODEL_NORMAL_Q27_H
+#define MODEL_NORMAL_Q27_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "base/fixed.h"
+#include "model/scale.h"
+#include "model/sine.h"
+#include "model/sum_q27.h"
+
+#define NORMAL_Q27_WHOLE (1 << 30) /* a whole step, as a fraction */
+
+struct normal_q27_map {
+    int32_t yy, yw, wy, ww; /* (y - n, w) changes by this matrix times (y - n, w) */
+};
+
+struct normal_q27_coeffs {
+    int32_t step;    /* h */
+    int32_t damping; /* h Cn */
+    uint32_t phase_stride;
+    bool is_exact;
+    bool has_phase; /* exact, undamped and never lifted: y from an integer phase index */
+    uint8_t contact;
+    struct normal_q27_map full, half; /* over h and h/2 */
+};
+
+/* y = n + cosine cos(phase) + sine sin(phase). The phase is a place within a quarter turn; each full quarter turns the
+ * amplitudes instead, which costs no bit. */
+struct normal_q27_phase {
+    int32_t cosine, sine;
+    uint32_t index;
+};
+
+struct normal_q27 {
+    int32_t y, w; /* displacement and velocity */
+    int32_t n;    /* brake force held over the present step */
+    struct normal_q27_phase phase;
+    int32_t least_force; /* the contact force is y, but never less than this */
+    int32_t reach; /* |y| and |w| stay within it until the load or the contact changes; INT32_MAX if nothing is known */
+    bool is_lifted;           /* spring off: contact lift and y < 0 */
+    bool is_steady_from_rest; /* from rest under a force that never changed: y >= 0 but for rounding */
+};
+
+/* The normal force at the four stages of RK4 over one piece of a step, and the state at its end. */
+struct normal_q27_piece {
+    int32_t p1, p2, p3, p4;
+    int32_t y, w;
+};
+
+void normal_q27_configure(struct normal_q27_coeffs *coeffs, const struct params *params, const struct scale *scale);
+
+/* 2 pi/spp in Q(bits), bits <= 39. */
+int64_t normal_q27_step(const struct scale *scale, unsigned bits);
+
+/* Starts at y, w under the force n. */
+void normal_q27_reset(struct normal_q27 *normal, const struct normal_q27_coeffs *coeffs, int32_t y, int32_t w, int32_t n);
+
+/* A new brake force takes hold from here on. */
+void normal_q27_set_load(struct normal_q27 *normal, const struct normal_q27_coeffs *coeffs, int32_t n,
+                         bool *is_saturated);
+
+/* The contact has changed: the pad is at y = 0. */
+void normal_q27_change_contact(struct normal_q27 *normal);
+
+/* Looks ahead over a fraction of the step without changing the state; is_whole says that it is a whole step from grid to
+ * grid. */
+void normal_q27_look(const struct normal_q27 *normal, const struct normal_q27_coeffs *coeffs, int32_t fraction,
+                     bool is_whole, struct normal_q27_piece *piece, bool *is_saturated);
+
+/* Moves to the end of a piece. */
+static inline void normal_q27_move(struct normal_q27 *normal, const struct normal_q27_piece *piece)
+{
+    normal->y = piece->y;
+    normal->w = piece->w;
+}
+
+/* Closes a whole step: puts the undamped exact solution back on its grid, holds a gap at its limit. Returns true if the
+ * gap was held. */
+bool normal_q27_close_step(struct normal_q27 *normal, const struct normal_q27_coeffs *coeffs, bool *is_saturated);
+
+/* Contact force of a displacement. A lifted pad has y < 0 and a least force of 0. */
+static inline int32_t normal_q27_force(const struct normal_q27 *normal, int32_t y)
+{
+    return y < normal->least_force ? normal->least_force : y;
+}
+
+/* --- What the fast path of the step needs inline ------------------------------------------------------------------ */
+
+/* One step on. */
+BASE_INLINE struct normal_q27_phase normal_q27_next(struct normal_q27_phase phase, uint32_t stride)
+{
+    phase.index += stride;
+    if (phase.index >= SINE_GRID / 4u) {
+        const int32_t cosine = phase.cosine;
+
+        phase.index -= SINE_GRID / 4u;
+        phase.cosine = phase.sine;
+        phase.sine = -cosine;
+    }
+    return phase;
+}
+
+BASE_INLINE void normal_q27_at(int32_t n, const struct normal_q27_phase *phase, int32_t *y, int32_t *w,
+                               bool *is_saturated)
+{
+    const int32_t sine = sine_quarter_q30[phase->index];
+    const int32_t cosine = sine_quarter_q30[SINE_GRID / 4u - phase->index];
+
+    *y = sum_q27(n, (int64_t)phase->cosine * cosine + (int64_t)phase->sine * sine, 30u, is_saturated);
+    *w = sum_q27(0, (int64_t)phase->sine * cosine - (int64_t)phase->cosine * sine, 30u, is_saturated);
+}
+
+/* h y'', less what the spring gives back. */
+BASE_INLINE int32_t normal_q27_increment(const struct normal_q27 *normal, int32_t step, int32_t damping, int32_t y,
+                                         int32_t w, bool *is_saturated)
+{
+    const int64_t pull = normal->is_lifted ? (int64_t)normal->n : (int64_t)normal->n - y;
+
+    return sum_q27(0, is_saturated == NULL ? (int64_t)step * (int32_t)pull - (int64_t)damping * w
+                                           : step * pull - (int64_t)damping * w,
+                   32u, is_saturated);
+}
+
+BASE_INLINE void normal_q27_look_rk4(const struct normal_q27 *normal, int32_t step, int32_t damping,
+                                     struct normal_q27_piece *piece, bool *is_saturated)
+{
+    const int32_t half = step / 2;
+    const int32_t y1 = normal->y;
+    const int32_t w1 = normal->w;
+    const int32_t a1 = normal_q27_increment(normal, step, damping, y1, w1, is_saturated);
+    const int32_t y2 = sum_q27_step(y1, half, w1, is_saturated);
+    const int32_t w2 = sum_q27_half(w1, a1, is_saturated);
+    const int32_t a2 = normal_q27_increment(normal, step, damping, y2, w2, is_saturated);
+    const int32_t y3 = sum_q27_step(y1, half, w2, is_saturated);
+    const int32_t w3 = sum_q27_half(w1, a2, is_saturated);
+    const int32_t a3 = normal_q27_increment(normal, step, damping, y3, w3, is_saturated);
+    const int32_t y4 = sum_q27_step(y1, step, w3, is_saturated);
+    const int32_t w4 = sum_q27_plain(w1, a3, is_saturated);
+    const int32_t a4 = normal_q27_increment(normal, step, damping, y4, w4, is_saturated);
+
+    piece->y = sum_q27_step(y1, step, sum_q27_nystrom(w1, a1, a2, a3, is_saturated), is_saturated);
+    piece->w = sum_q27_rk4(w1, a1, a2, a3, a4, is_saturated);
+    piece->p1 = normal_q27_force(normal, y1);
+    piece->p2 = normal_q27_force(normal, y2);
+    piece->p3 = normal_q27_force(normal, y3);
+    piece->p4 = normal_q27_force(normal, y4);
+}
+
+/* A whole step in contact by the prepared maps, or on the grid of the phase. */
+BASE_INLINE void normal_q27_look_map(const struct normal_q27 *normal, const struct normal_q27_coeffs *coeffs,
+                                     const struct normal_q27_phase *next, struct normal_q27_piece *piece,
+                                     bool *is_saturated)
+{
+    const int32_t d = sum_q27_plain(normal->y, -normal->n, is_saturated);
+    const int32_t w = normal->w;
+    const int32_t middle = sum_q27(
+        normal->y, (int64_t)coeffs->half.yy * d + (int64_t)coeffs->half.yw * w, 32u, is_saturated);
+
+    if (coeffs->has_phase) {
+        normal_q27_at(normal->n, next, &piece->y, &piece->w, is_saturated);
+    } else {
+        piece->y = sum_q27(normal->y, (int64_t)coeffs->full.yy * d + (int64_t)coeffs->full.yw * w, 32u, is_saturated);
+        piece->w = sum_q27(w, (int64_t)coeffs->full.wy * d + (int64_t)coeffs->full.ww * w, 32u, is_saturated);
+    }
+    piece->p1 = normal_q27_force(normal, normal->y);
+    piece->p2 = normal_q27_force(normal, middle);
+    piece->p3 = piece->p2;
+    piece->p4 = normal_q27_force(normal, piece->y);
+}
+
+#endif

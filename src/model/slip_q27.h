@@ -1,0 +1,96 @@
+/* One slip piece in Q4.27: RK4 of the tangential equation with the sign of vr frozen.
+ *
+ * It is always computed as seen from the side to which the pad slips, where vr > 0: a mirrored pad goes through the same
+ * integers, whatever the rounding. Time is counted in steps, so the factors carry h or the part of it that the piece takes,
+ * and an "increment" is h x''. Signs are those with which a factor enters its sum. */
+#ifndef MODEL_SLIP_Q27_H
+#define MODEL_SLIP_Q27_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "base/compiler.h"
+#include "model/normal_q27.h"
+#include "model/sum_q27.h"
+
+/* Fraction bits of the factors: FINE where all of them stay below 1/2 and the states below 4, which is the usual step;
+ * WIDE holds whatever the scale admits. */
+enum { SLIP_Q27_FINE = 32, SLIP_Q27_WIDE = 28 };
+
+struct slip_q27_factors {
+    int32_t travel; /* h/2^length_shift in Q32: x per v */
+    int32_t spring; /* -h K, K = Z2 2^length_shift */
+    int32_t friction; /* h mu */
+    int32_t fade;   /* -h eps */
+    int32_t floor;  /* h times the floor of mu; far below any mu where there is none */
+    int64_t drag;   /* -h C with 27 bits more, so that a small C is not rounded away */
+    int64_t knee;   /* (floor - friction) with 27 bits more: on the floor where -fade vr lies below it */
+};
+
+/* The pad as seen from its side. */
+struct slip_q27_view {
+    int32_t x, v, disc;
+    int32_t drive; /* h (mu + eps disc) */
+};
+
+/* End of a piece, and the increment at its start. */
+struct slip_q27_end {
+    int32_t x, v;
+    int32_t first;
+};
+
+/* A factor of a product whose sum must fit: wide ones stay within 4, that is 2^30. */
+BASE_INLINE int32_t slip_q27_factor(int64_t factor, bool *is_saturated)
+{
+    if (is_saturated != NULL && (factor > (1 << 30) || factor < -(1 << 30))) {
+        *is_saturated = true;
+        return factor > 0 ? 1 << 30 : -(1 << 30);
+    }
+    return (int32_t)factor;
+}
+
+BASE_INLINE int32_t slip_q27_drive(const struct slip_q27_factors *f, int32_t disc, bool *is_saturated)
+{
+    return slip_q27_factor(f->friction - fixed_round_up((int64_t)f->fade * disc, 27u), is_saturated);
+}
+
+/* h x'' = (drive + fade v) p + drag v + spring x. */
+BASE_INLINE int32_t slip_q27_increment(const struct slip_q27_factors *f, const struct slip_q27_view *view, int32_t x,
+                                       int32_t v, int32_t p, bool has_floor, unsigned bits, bool *is_saturated)
+{
+    int32_t drive = view->drive;
+    int64_t fade = (int64_t)f->fade * p;
+    int32_t drag;
+
+    if (has_floor && -(f->fade * ((int64_t)view->disc - v)) < f->knee) {
+        drive = f->floor;
+        fade = 0;
+    }
+    drag = slip_q27_factor(fixed_round_up(f->drag + fade, 27u), is_saturated);
+    return sum_q27(0, (int64_t)drive * p + (int64_t)drag * v + (int64_t)f->spring * x, bits, is_saturated);
+}
+
+BASE_INLINE void slip_q27_go(const struct slip_q27_factors *f, const struct slip_q27_view *view,
+                             const struct normal_q27_piece *piece, struct slip_q27_end *end, bool has_floor,
+                             unsigned bits, bool *is_saturated)
+{
+    const int32_t half = f->travel / 2;
+    const int32_t x1 = view->x;
+    const int32_t v1 = view->v;
+    const int32_t a1 = slip_q27_increment(f, view, x1, v1, piece->p1, has_floor, bits, is_saturated);
+    const int32_t x2 = sum_q27_step(x1, half, v1, is_saturated);
+    const int32_t v2 = sum_q27_half(v1, a1, is_saturated);
+    const int32_t a2 = slip_q27_increment(f, view, x2, v2, piece->p2, has_floor, bits, is_saturated);
+    const int32_t x3 = sum_q27_step(x1, half, v2, is_saturated);
+    const int32_t v3 = sum_q27_half(v1, a2, is_saturated);
+    const int32_t a3 = slip_q27_increment(f, view, x3, v3, piece->p3, has_floor, bits, is_saturated);
+    const int32_t x4 = sum_q27_step(x1, f->travel, v3, is_saturated);
+    const int32_t v4 = sum_q27_plain(v1, a3, is_saturated);
+    const int32_t a4 = slip_q27_increment(f, view, x4, v4, piece->p4, has_floor, bits, is_saturated);
+
+    end->x = sum_q27_step(x1, f->travel, sum_q27_nystrom(v1, a1, a2, a3, is_saturated), is_saturated);
+    end->v = sum_q27_rk4(v1, a1, a2, a3, a4, is_saturated);
+    end->first = a1;
+}
+
+#endif

@@ -1,0 +1,230 @@
+/* One step of the tangential equation in integers: the usual step at once, others in pieces between switches of regime. */
+#include "model/step_q27.h"
+
+#include "model/event_q27.h"
+
+#define FINE_LIMIT (INT64_C(1) << 31) /* 1/2 in Q32 */
+#define TAME_LIMIT (1u << 29)         /* 4 in Q27 */
+#define FAULT_SPEED ((int32_t)SCALE_FAULT_SPEED << PLANT_FRACTION_BITS)
+
+/* h value 2^exponent, h exact to 38 bits. */
+static int64_t times_step(const struct scale *scale, float value, int exponent)
+{
+    return fixed_times_float(normal_q27_step(scale, 38u), value, exponent - 38);
+}
+
+static void configure_factors(struct slip_q27_factors *f, const struct scale *scale, int bits)
+{
+    const int64_t friction = times_step(scale, scale->friction, bits);
+    const int64_t floor = times_step(scale, scale->friction_floor, bits);
+
+    f->travel = (int32_t)normal_q27_step(scale, 32u - scale->length_shift);
+    f->spring = fixed_saturate(-times_step(scale, scale->stiffness, bits + (int)scale->length_shift));
+    f->friction = fixed_saturate(friction);
+    f->fade = fixed_saturate(-times_step(scale, scale->friction_slope, bits));
+    f->floor = fixed_saturate(floor);
+    f->drag = -times_step(scale, scale->damping, bits + 27);
+    f->knee = ((int64_t)f->floor - f->friction) * (1 << 27);
+}
+
+/* How far the normal motion may reach for every sum of the fast path to fit, or 0: all factors must stay below 1/2, h (C +
+ * |eps| p) included. RK4 looks ahead, so a third is kept back. MODEL.md has the bounds that follow. */
+static int32_t fine_reach(const struct scale *scale)
+{
+    const int64_t spring = times_step(scale, scale->stiffness, SLIP_Q27_FINE + (int)scale->length_shift);
+    const int64_t friction = times_step(scale, scale->friction, SLIP_Q27_FINE);
+    const int64_t slope = times_step(scale, scale->friction_slope, SLIP_Q27_FINE);
+    const int64_t floor = times_step(scale, scale->friction_floor, SLIP_Q27_FINE);
+    const int64_t fade = slope < 0 ? -slope : slope;
+    const int64_t rest = FINE_LIMIT - 1 - times_step(scale, scale->damping, SLIP_Q27_FINE);
+    uint32_t ratio_q16;
+
+    /* The disc's speed stays within 1 but for rounding, so 17/16 of eps cover it. */
+    if (spring >= FINE_LIMIT || friction + fade + fade / 16 >= FINE_LIMIT || floor >= FINE_LIMIT || rest <= 0) {
+        return 0;
+    }
+    ratio_q16 = (uint32_t)rest / ((uint32_t)(fade >> 16) + 1u);
+    return (int32_t)((ratio_q16 < (4u << 16) ? ratio_q16 : 4u << 16) * 2u / 3u * (1u << 11));
+}
+
+void step_q27_configure(struct step_q27_coeffs *coeffs, const struct params *params, const struct scale *scale)
+{
+    normal_q27_configure(&coeffs->normal, params, scale);
+    configure_factors(&coeffs->wide, scale, SLIP_Q27_WIDE);
+    configure_factors(&coeffs->fine, scale, SLIP_Q27_FINE);
+    coeffs->drag = fixed_saturate(-times_step(scale, scale->damping, SLIP_Q27_WIDE));
+    coeffs->has_floor = scale->has_floor;
+    coeffs->is_naive = (int)params->tangential_method == METHOD_NAIVE;
+    coeffs->reach_max = coeffs->is_naive ? 0 : fine_reach(scale);
+    coeffs->stiffness = fixed_from_float(scale->stiffness, PLANT_FRACTION_BITS + (int)scale->length_shift);
+    coeffs->friction = fixed_from_float(scale->friction, PLANT_FRACTION_BITS);
+    coeffs->slope = fixed_from_float(scale->friction_slope, PLANT_FRACTION_BITS);
+    coeffs->floor = fixed_from_float(scale->friction_floor, PLANT_FRACTION_BITS);
+    coeffs->damping_q24 = fixed_from_float(scale->damping, 24);
+}
+
+void step_q27_reset(struct step_q27 *state, const struct step_q27_coeffs *coeffs, const struct params *params,
+                    const struct scale *scale, struct step_q27_input first)
+{
+    const int bits = PLANT_FRACTION_BITS;
+    const float normal_speed = scale->normal_m * scale->omega_rad_per_s;
+    const int32_t y = fixed_from_float(params->y_initial_m / scale->normal_m, bits);
+    const int32_t w = fixed_from_float(params->yd_initial_m_per_s / normal_speed, bits);
+
+    state->x = fixed_from_float(params->x_initial_m / scale->length_m, bits - (int)scale->length_shift);
+    state->v = fixed_from_float(params->xd_initial_m_per_s / scale->speed_m_per_s, bits);
+    normal_q27_reset(&state->normal, &coeffs->normal, y, w, first.load);
+    state->is_saturated = fixed_abs(state->x) == INT32_MAX || fixed_abs(state->v) == INT32_MAX ||
+                          fixed_abs(y) == INT32_MAX || fixed_abs(w) == INT32_MAX;
+    state->disc = state->v;
+    state->mode = PLANT_SLIP_PLUS;
+    event_q27_set_speed(state, coeffs, first.speed);
+}
+
+/* Writes what the fast path has to tell; a step in pieces adds to it. */
+BASE_INLINE void report(const struct step_q27 *s, uint32_t stick, uint32_t slip_minus, struct plant_output *output)
+{
+    output->x = s->x;
+    output->v = s->v;
+    output->y = s->normal.y;
+    output->w = s->normal.w;
+    output->disc = s->disc;
+    output->stick = stick;
+    output->slip_minus = slip_minus;
+    output->mode = s->mode;
+    output->events = 0u;
+    output->is_capped = false;
+    output->is_saturated = s->is_saturated;
+    output->is_lifted = s->normal.y < 0;
+    output->is_gap_held = false;
+}
+
+void step_q27_report(const struct step_q27 *state, struct plant_output *output)
+{
+    report(state, 0u, 0u, output);
+    output->is_lifted = false;
+}
+
+/* A whole slip step without an event; false, and nothing has changed, where there may be one. The test is that of
+ * event_q27.c: a curve that stays above its first tangent stays above 0 when the tangent does. */
+BASE_INLINE bool slip_whole(struct step_q27 *s, const struct step_q27_coeffs *c, const struct normal_q27_piece *piece,
+                            bool has_floor)
+{
+    const bool is_turned = s->mode < 0;
+    struct slip_q27_view view = {s->x, s->v, s->disc, 0};
+    struct slip_q27_end end;
+    int32_t f0;
+
+    if (is_turned) {
+        view = (struct slip_q27_view){-s->x, -s->v, -s->disc, 0};
+    }
+    view.drive = slip_q27_drive(&c->fine, view.disc, NULL);
+    slip_q27_go(&c->fine, &view, piece, &end, has_floor, SLIP_Q27_FINE, NULL);
+    f0 = view.disc - view.v;
+    if (end.v > view.disc || (end.first > 0 && f0 > 0 && f0 <= end.first)) {
+        return false;
+    }
+    s->x = is_turned ? -end.x : end.x;
+    s->v = is_turned ? -end.v : end.v;
+    return true;
+}
+
+/* A whole stick step; false, and nothing has changed, where it ends inside. */
+BASE_INLINE bool stick_whole(struct step_q27 *s, const struct step_q27_coeffs *c, const struct normal_q27_piece *piece)
+{
+    const int32_t x = s->x + fixed_product(c->wide.travel, s->disc, 32u);
+
+    if (!event_q27_is_held(c, x, s->disc, piece->p4, 0)) {
+        return false;
+    }
+    s->x = x;
+    return true;
+}
+
+/* The usual step, or false. */
+static inline bool advance_whole(struct step_q27 *s, const struct step_q27_coeffs *c, struct plant_output *output)
+{
+    const uint32_t size = ((uint32_t)s->x + TAME_LIMIT) | ((uint32_t)s->v + TAME_LIMIT);
+    struct normal_q27_phase next = s->normal.phase;
+    struct normal_q27_piece piece;
+    bool is_gone;
+
+    if (s->normal.reach >= c->reach_max || size >= 2u * TAME_LIMIT) {
+        return false;
+    }
+    if (c->normal.is_exact) {
+        next = normal_q27_next(next, c->normal.phase_stride);
+        normal_q27_look_map(&s->normal, &c->normal, &next, &piece, NULL);
+    } else {
+        normal_q27_look_rk4(&s->normal, c->normal.step, c->normal.damping, &piece, NULL);
+    }
+    if (s->mode == PLANT_STICK) {
+        is_gone = stick_whole(s, c, &piece);
+    } else if (c->has_floor) {
+        is_gone = slip_whole(s, c, &piece, true);
+    } else {
+        is_gone = slip_whole(s, c, &piece, false);
+    }
+    if (!is_gone) {
+        return false;
+    }
+    s->normal.phase = next;
+    normal_q27_move(&s->normal, &piece);
+    report(s, s->mode == PLANT_STICK ? PLANT_SHARE_ONE : 0u, s->mode == PLANT_SLIP_MINUS ? PLANT_SHARE_ONE : 0u,
+           output);
+    return true;
+}
+
+static void advance_in_pieces(struct step_q27 *s, const struct step_q27_coeffs *c, struct plant_output *output)
+{
+    struct event_q27_progress progress = {NORMAL_Q27_WHOLE, true, 0u, 0u, 0u, 0u, false, false};
+    bool is_gap_held;
+
+    if (c->is_naive) {
+        event_q27_naive_step(s, c, &progress);
+    } else {
+        event_q27_step(s, c, &progress);
+    }
+    is_gap_held = normal_q27_close_step(&s->normal, &c->normal, &s->is_saturated);
+    report(s, progress.stick, progress.slip_minus, output);
+    output->events = (uint8_t)progress.events;
+    output->is_capped = progress.is_capped;
+    output->is_lifted = progress.is_lifted;
+    output->is_gap_held = is_gap_held;
+}
+
+void step_q27_advance(struct step_q27 *state, const struct step_q27_coeffs *coeffs, struct step_q27_input input,
+                      struct plant_output *output)
+{
+    if (input.load != state->normal.n) {
+        normal_q27_set_load(&state->normal, &coeffs->normal, input.load, &state->is_saturated);
+    }
+    if (input.speed != state->disc) {
+        event_q27_set_speed(state, coeffs, input.speed);
+    }
+    if (!advance_whole(state, coeffs, output)) {
+        advance_in_pieces(state, coeffs, output);
+    }
+}
+
+int32_t step_q27_friction(const struct step_q27 *state, const struct step_q27_coeffs *coeffs)
+{
+    const int32_t p = normal_q27_force(&state->normal, state->normal.y);
+    const int32_t sign = state->mode;
+    int64_t ratio;
+
+    if (sign == PLANT_STICK) {
+        return fixed_saturate(fixed_shift_right((int64_t)coeffs->damping_q24 * state->v, 24u) +
+                              fixed_shift_right((int64_t)coeffs->stiffness * state->x, 27u));
+    }
+    ratio = coeffs->friction + fixed_shift_right(coeffs->slope * sign * ((int64_t)state->disc - state->v), 27u);
+    if (coeffs->has_floor && ratio < coeffs->floor) {
+        ratio = coeffs->floor;
+    }
+    return fixed_saturate(sign * fixed_shift_right((int64_t)fixed_saturate(ratio) * p, 27u));
+}
+
+bool step_q27_is_outside(const struct step_q27 *state)
+{
+    return state->is_saturated || fixed_abs(state->v) > (uint32_t)FAULT_SPEED;
+}

@@ -1,0 +1,63 @@
+/* The plant in Q4.27: the twin of step_f32, integers from the input to the sample. Same options, same rules, same report;
+ * what differs is the format of the states, and that x is counted in units of 2^length_shift, which lets a soft spring fit.
+ *
+ * Two kinds of arithmetic: a fast path for the usual step, whole, without an event, every number proven to fit; and a
+ * general one that saturates and says so. The pad has left its domain when anything saturates. Headroom: MODEL.md. */
+#ifndef MODEL_STEP_Q27_H
+#define MODEL_STEP_Q27_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "model/normal_q27.h"
+#include "model/plant.h"
+#include "model/scale.h"
+#include "model/slip_q27.h"
+
+struct step_q27_coeffs {
+    struct slip_q27_factors fine, wide; /* of a whole step */
+    int32_t drag;      /* -h C in the format of wide */
+    int32_t reach_max; /* the fast path serves a normal motion within it; 0: no motion at all */
+    bool has_floor;
+    bool is_naive; /* RK4 on the raw sign, no stick: for comparison only */
+    struct normal_q27_coeffs normal;
+    int32_t stiffness, friction, slope, floor; /* without h, Q27, for reports */
+    int32_t damping_q24;
+};
+
+/* Brake force in n_max and disc speed in Vref, held over one step, Q4.27, within 1 but for rounding. */
+struct step_q27_input {
+    int32_t load, speed;
+};
+
+struct step_q27 {
+    int32_t x, v; /* displacement over 2^length_shift and velocity of the pad along the disc */
+    int32_t disc; /* disc speed held over the present step */
+    int8_t mode;  /* enum plant_mode */
+    bool is_saturated; /* something did not fit, now or before */
+    struct normal_q27 normal;
+};
+
+/* Coefficients of a set whose scale has been derived. [MAIN] */
+void step_q27_configure(struct step_q27_coeffs *coeffs, const struct params *params, const struct scale *scale);
+
+/* Initial state of the set under the first input. [ANY] */
+void step_q27_reset(struct step_q27 *state, const struct step_q27_coeffs *coeffs, const struct params *params,
+                    const struct scale *scale, struct step_q27_input first);
+
+/* Advances by one step h and reports it. Cost: one RK4 step, and at most 1 + 2 (PLANT_EVENTS_MAX + PLANT_CONTACTS_MAX)
+ * where regimes switch. [ISR] */
+void step_q27_advance(struct step_q27 *state, const struct step_q27_coeffs *coeffs, struct step_q27_input input,
+                      struct plant_output *output);
+
+/* The state as it stands, with nothing having happened. [ANY] */
+void step_q27_report(const struct step_q27 *state, struct plant_output *output);
+
+/* Friction force on the pad in the unit m wn Vref, Q4.27: mu P sgn(vr) while slipping, what holds the pad while
+ * sticking. */
+int32_t step_q27_friction(const struct step_q27 *state, const struct step_q27_coeffs *coeffs);
+
+/* The plant has left its domain: a state saturated, or is beyond what the model means. */
+bool step_q27_is_outside(const struct step_q27 *state);
+
+#endif

@@ -1,0 +1,62 @@
+/* Sums of products, formed in 64 bits and rounded once: the one operation that the fixed-point plant is made of.
+ *
+ * It comes in two kinds, told apart at compile time. With is_saturated given the result is held within 32 bits, and
+ * *is_saturated is set if it had to be. With NULL the caller has proven that the result fits, and nothing is asked. Where
+ * both serve they give the same bits. Proofs: MODEL.md, "Fixed point". */
+#ifndef MODEL_SUM_Q27_H
+#define MODEL_SUM_Q27_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include "base/compiler.h"
+#include "base/fixed.h"
+
+/* base + sum/2^bits, halves up. The sum itself must fit 64 bits. */
+BASE_INLINE int32_t sum_q27(int32_t base, int64_t sum, unsigned bits, bool *is_saturated)
+{
+    if (is_saturated == NULL) {
+        return (int32_t)fixed_round_up((int64_t)base * ((int64_t)1 << bits) + sum, bits);
+    }
+    return fixed_saturate_and_tell(base + fixed_round_up(sum, bits), is_saturated);
+}
+
+/* base + value/2 and base + value. */
+BASE_INLINE int32_t sum_q27_half(int32_t base, int32_t value, bool *is_saturated)
+{
+    return is_saturated == NULL ? base + fixed_half_up(value) : sum_q27(base, value, 1u, is_saturated);
+}
+
+BASE_INLINE int32_t sum_q27_plain(int32_t base, int32_t value, bool *is_saturated)
+{
+    return is_saturated == NULL ? base + value : fixed_saturate_and_tell((int64_t)base + value, is_saturated);
+}
+
+/* base + factor value, the factor in Q32. */
+BASE_INLINE int32_t sum_q27_step(int32_t base, int32_t factor, int32_t value, bool *is_saturated)
+{
+    return sum_q27(base, (int64_t)factor * value, 32u, is_saturated);
+}
+
+/* The weights of RK4, in Q32. */
+#define SUM_Q27_SIXTH 715827883
+#define SUM_Q27_THIRD 1431655765
+
+/* base + (a + 2 b + 2 c + d)/6 and base + (a + b + c)/6: the textbook's sum of four, or six times one, fits no 32 bits. */
+BASE_INLINE int32_t sum_q27_rk4(int32_t base, int32_t a, int32_t b, int32_t c, int32_t d, bool *is_saturated)
+{
+    const int64_t sum = (int64_t)SUM_Q27_SIXTH * a + (int64_t)SUM_Q27_THIRD * b + (int64_t)SUM_Q27_THIRD * c +
+                        (int64_t)SUM_Q27_SIXTH * d;
+
+    return sum_q27(base, sum, 32u, is_saturated);
+}
+
+BASE_INLINE int32_t sum_q27_nystrom(int32_t base, int32_t a, int32_t b, int32_t c, bool *is_saturated)
+{
+    const int64_t sum = (int64_t)SUM_Q27_SIXTH * a + (int64_t)SUM_Q27_SIXTH * b + (int64_t)SUM_Q27_SIXTH * c;
+
+    return sum_q27(base, sum, 32u, is_saturated);
+}
+
+#endif
