@@ -11,6 +11,7 @@ void hal_board_init(void);
 /* What "id" prints. */
 const char *hal_board_name(void); /* the folder's name, mps2-an386 */
 const char *hal_board_core(void); /* cortex-m4f */
+bool hal_board_has_fpu(void);     /* single precision in hardware; without it the plant starts in fixed point */
 bool hal_board_is_emulated(void); /* true where the image was built for an emulator's board */
 
 /* Ends the program: the emulator's or the process's exit code; on silicon a reset. [ANY] */

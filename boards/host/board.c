@@ -126,6 +126,8 @@ const char *hal_board_name(void) { return BOARD_NAME; }
 
 const char *hal_board_core(void) { return BOARD_CORE; }
 
+bool hal_board_has_fpu(void) { return true; }
+
 bool hal_board_is_emulated(void) { return false; }
 
 void hal_exit(int code) { exit(code); }

@@ -1,7 +1,3 @@
-BOARD_CPU     := -mcpu=cortex-m4 -mfpu=fpv4-sp-d16 -mfloat-abi=hard
-BOARD_MAP     := linker/mps2.ld
-BOARD_SOURCES := hal/cmsdk_uart.c hal/cmsdk_timer.c hal/cortex_m/semihosting.c hal/cortex_m/mpu_v7m.c
-BOARD_RUN     := qemu-system-arm -M mps2-an386 -icount shift=6,align=off,sleep=off -display none -monitor none \
-                 -semihosting-config enable=on,target=native -serial stdio -serial null -kernel
+BOARD_CPU := -mcpu=cortex-m4 -mfpu=fpv4-sp-d16 -mfloat-abi=hard
 
-include hal/cortex_m/cortex_m.mk
+include hal/mps2/mps2.mk

@@ -69,7 +69,7 @@ int main(void)
     };
     bool is_busy;
 
-    executive_init(&executive);
+    executive_init(&executive, hal_board_has_fpu() ? ARITH_F32 : ARITH_Q27);
     isr_init(&executive);
     text_init(&output, output_bytes, sizeof output_bytes);
     console_init(&console, &executive, &output, &identity);

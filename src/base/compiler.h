@@ -17,6 +17,8 @@
 #define BASE_NOINLINE __attribute__((noinline))
 #define BASE_LIKELY(cond) __builtin_expect(!!(cond), 1)
 #define BASE_UNLIKELY(cond) __builtin_expect(!!(cond), 0)
+/* Takes what the compiler knows of a word from it. Without it gcc multiplies the upper word of a sum as 64 bits again. */
+#define BASE_FORGET(word) __asm__("" : "+r"(word))
 #define BASE_LEADING_ZEROS(word) ((unsigned)__builtin_clz(word)) /* of a 32-bit word other than 0 */
 #define BASE_COUNT(array) (sizeof(array) / sizeof((array)[0]))
 

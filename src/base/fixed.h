@@ -6,6 +6,8 @@
 #include <stdbool.h>
 #include <stdint.h>
 
+#include "base/compiler.h"
+
 /* Magnitude; defined for INT32_MIN too. */
 static inline uint32_t fixed_abs(int32_t value) { return value < 0 ? 0u - (uint32_t)value : (uint32_t)value; }
 
@@ -37,6 +39,12 @@ static inline int32_t fixed_product(int32_t a, int32_t b, unsigned shift)
     return (int32_t)fixed_shift_right((int64_t)a * b, shift);
 }
 
+/* A part of a value without a mirror image: fraction in Q30, 0 to 1; halves up. */
+static inline int32_t fixed_part(int32_t value, int32_t fraction)
+{
+    return (int32_t)fixed_round_up((int64_t)value * fraction, 30u);
+}
+
 /* The nearest value that fits 32 bits, symmetric: never INT32_MIN. */
 static inline int32_t fixed_saturate(int64_t value)
 {
@@ -44,14 +52,15 @@ static inline int32_t fixed_saturate(int64_t value)
 }
 
 /* The same, remembering that it had to; *is_saturated is never cleared here. */
-static inline int32_t fixed_saturate_and_tell(int64_t value, bool *is_saturated)
+BASE_INLINE int32_t fixed_saturate_and_tell(int64_t value, bool *is_saturated)
 {
-    const int32_t fit = fixed_saturate(value);
+    const int32_t low = (int32_t)value;
 
-    if (fit != value) {
-        *is_saturated = true;
+    if (BASE_LIKELY(low == value && low != INT32_MIN)) {
+        return low;
     }
-    return fit;
+    *is_saturated = true;
+    return fixed_saturate(value);
 }
 
 /* Bits that the magnitude takes, 0 for 0. */

@@ -16,13 +16,14 @@ static void take_part(const struct slip_q27_factors *whole, int32_t fraction, st
 {
     *part = *whole;
     if (fraction < NORMAL_Q27_WHOLE) {
-        part->travel = fixed_product(whole->travel, fraction, 30u);
-        part->spring = fixed_product(whole->spring, fraction, 30u);
-        part->friction = fixed_product(whole->friction, fraction, 30u);
-        part->fade = fixed_product(whole->fade, fraction, 30u);
-        part->floor = fixed_product(whole->floor, fraction, 30u);
-        part->drag = fixed_shift_right(whole->drag, 27u) * fraction;
-        part->drag = fixed_shift_right(part->drag, 3u);
+        part->travel = fixed_part(whole->travel, fraction);
+        part->spring = fixed_part(whole->spring, fraction);
+        part->stretch = (int32_t)fixed_round_up((int64_t)part->spring * part->travel, 32u);
+        part->half_stretch = (int32_t)fixed_round_up((int64_t)part->spring * part->travel, 33u);
+        part->friction = fixed_part(whole->friction, fraction);
+        part->fade = fixed_part(whole->fade, fraction);
+        part->floor = fixed_part(whole->floor, fraction);
+        part->drag = fixed_round_up(fixed_round_up(whole->drag, 27u) * fraction, 3u) + (1 << 26);
         part->knee = ((int64_t)part->floor - part->friction) * (1 << 27);
     }
 }
@@ -36,13 +37,13 @@ static struct slip_q27_view view_from(struct step_q27 *s, const struct slip_q27_
     return view;
 }
 
-static int32_t increment(struct step_q27 *s, const struct step_q27_coeffs *c, const struct slip_q27_factors *f,
-                         const struct slip_q27_view *view, int32_t x, int32_t v, int32_t p)
+static BASE_NOINLINE int32_t increment(struct step_q27 *s, const struct step_q27_coeffs *c,
+                                       const struct slip_q27_factors *f, const struct slip_q27_view *view, int32_t x, int32_t v, int32_t p)
 {
-    return slip_q27_increment(f, view, x, v, p, c->has_floor, FACTOR_BITS, &s->is_saturated);
+    return slip_q27_increment(f, view, slip_q27_pull(f, x, FACTOR_BITS), v, p, c->has_floor, FACTOR_BITS, &s->is_saturated);
 }
 
-static void slip(struct step_q27 *s, const struct step_q27_coeffs *c, const struct slip_q27_factors *f,
+static BASE_NOINLINE void slip(struct step_q27 *s, const struct step_q27_coeffs *c, const struct slip_q27_factors *f,
                  const struct slip_q27_view *view, const struct normal_q27_piece *piece, struct slip_q27_end *end)
 {
     slip_q27_go(f, view, piece, end, c->has_floor, FACTOR_BITS, &s->is_saturated);
@@ -91,7 +92,7 @@ static void advance(struct step_q27 *s, struct event_q27_progress *progress, con
 static int32_t look(struct step_q27 *s, const struct step_q27_coeffs *c, int32_t place, int32_t fraction,
                     struct normal_q27_piece *piece)
 {
-    const int32_t part = fixed_product(place, fraction, 30u);
+    const int32_t part = fixed_part(place, fraction);
 
     if (part > 0) {
         normal_q27_look(&s->normal, &c->normal, part, false, piece, &s->is_saturated);
@@ -176,7 +177,7 @@ static int32_t force_change(const struct step_q27 *s, const struct step_q27_coef
     if (normal_q27_force(&s->normal, y) != y) {
         return 0;
     }
-    return fixed_product(fixed_product(c->normal.step, fraction, 30u), w, 32u);
+    return fixed_product(fixed_part(c->normal.step, fraction), w, 32u);
 }
 
 /* Where in a stick piece friction can no longer hold the pad. */
@@ -203,7 +204,7 @@ static int32_t find_exit(const struct step_q27 *s, const struct step_q27_coeffs 
 
 static int32_t carried(const struct step_q27_coeffs *c, int32_t disc, int32_t fraction)
 {
-    return fixed_product(fixed_product(c->wide.travel, fraction, 30u), disc, 32u);
+    return fixed_product(fixed_part(c->wide.travel, fraction), disc, 32u);
 }
 
 static void stick_piece(struct step_q27 *s, const struct step_q27_coeffs *c, struct event_q27_progress *progress,
@@ -237,7 +238,7 @@ static int32_t cut_at_contact(struct step_q27 *s, const struct step_q27_coeffs *
 {
     const struct normal_q27 *normal = &s->normal;
     const int8_t sign = normal->is_lifted ? -1 : 1;
-    const int32_t t = fixed_product(c->normal.step, progress->rest, 30u);
+    const int32_t t = fixed_part(c->normal.step, progress->rest);
     struct hermite_q27 gap;
     int32_t place = 0;
 
@@ -321,8 +322,8 @@ void event_q27_naive_step(struct step_q27 *s, const struct step_q27_coeffs *c, s
     a4 = naive_increment(s, c, fixed_saturate_and_tell((int64_t)s->x + fixed_product(travel, v3, 32u), tell), v4,
                          piece.p4);
     {
-        const int64_t mean = fixed_shift_right(SUM_Q27_SIXTH * ((int64_t)a1 + a2 + a3), 32u) + s->v;
-        const int64_t gain = SUM_Q27_SIXTH * ((int64_t)a1 + a4) + SUM_Q27_THIRD * ((int64_t)a2 + a3);
+        const int64_t mean = fixed_shift_right(c->wide.weights.sixth * ((int64_t)a1 + a2 + a3), 32u) + s->v;
+        const int64_t gain = c->wide.weights.sixth * ((int64_t)a1 + a4) + c->wide.weights.third * ((int64_t)a2 + a3);
 
         s->x = fixed_saturate_and_tell(
             s->x + fixed_shift_right((int64_t)travel * fixed_saturate_and_tell(mean, tell), 32u), tell);

@@ -42,18 +42,19 @@ static int32_t secant(int32_t value0, int32_t end, int32_t upper)
     return fixed_product(upper, (int32_t)fixed_ratio_q30((uint32_t)value0, fixed_abs(end) + (uint32_t)value0), 30);
 }
 
-/* t - value/slope, or a place outside of [0, 1] where the quotient is beyond 1. */
-static int64_t newton(int32_t t, int32_t value, int64_t slope)
+/* t - value/slope, or a place below 0 where the quotient is beyond 1. */
+static int32_t newton(int32_t t, int32_t value, int32_t slope)
 {
     const uint32_t part = fixed_abs(value);
-    const uint32_t whole = (uint32_t)magnitude(slope);
-    int64_t move;
+    const uint32_t whole = fixed_abs(slope);
+    uint32_t move;
 
     if (whole < part || whole == 0u) {
         return -1;
     }
-    move = (int64_t)fixed_ratio_q30(part, whole);
-    return (value < 0) == (slope < 0) ? t - move : t + move;
+    move = fixed_ratio_q30(part, whole);
+    move = move < HERMITE_Q27_ONE ? move : HERMITE_Q27_ONE - 1u; /* so that t + move fits */
+    return (value < 0) == (slope < 0) ? t - (int32_t)move : t + (int32_t)move;
 }
 
 int32_t hermite_q27_root(const struct hermite_q27 *f, int32_t upper)
@@ -64,9 +65,9 @@ int32_t hermite_q27_root(const struct hermite_q27 *f, int32_t upper)
 
     for (int pass = 0; pass < NEWTON_PASSES; pass++) {
         const int32_t value = hermite_q27_value(f, t);
-        const int64_t bend = 2 * (int64_t)f->square + fixed_round_up(3 * (int64_t)f->cube * t, 30);
-        const int64_t slope = f->slope0 + fixed_round_up(bend * t, 30); /* within 2^31 */
-        const int64_t next = newton(t, value, slope);
+        const int32_t bend = hermite_q27_term(2 * f->square, 3 * f->cube, t); /* within 5 2^28 */
+        const int32_t slope = hermite_q27_term(f->slope0, bend, t);           /* within 6 2^28 */
+        const int32_t next = newton(t, value, slope);
 
         if (value < 0) {
             high = t;
@@ -74,7 +75,7 @@ int32_t hermite_q27_root(const struct hermite_q27 *f, int32_t upper)
             low = t;
         }
         /* A root on the bracket's edge is a root: a strict test here would jump away after converging. */
-        t = next >= low && next <= high ? (int32_t)next : low + (high - low) / 2;
+        t = next >= low && next <= high ? next : low + (high - low) / 2;
     }
     return t;
 }

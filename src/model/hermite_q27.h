@@ -25,13 +25,16 @@ int32_t hermite_q27_root_after_start(const struct hermite_q27 *f);
 /* Place of the minimum inside (0, 1), for slope0 < 0 < slope1. */
 int32_t hermite_q27_minimum(const struct hermite_q27 *f);
 
+/* sum + factor t, rounded down. The upper word of a product lacks two bits of the result, which the search can spare. */
+static inline int32_t hermite_q27_term(int32_t sum, int32_t factor, int32_t t)
+{
+    return sum + (int32_t)fixed_floor((int64_t)factor * t, 32u) * 4;
+}
+
 /* Four numbers within 2^28: no sum below exceeds 2^30. */
 static inline int32_t hermite_q27_value(const struct hermite_q27 *f, int32_t t)
 {
-    const int32_t bend = f->square + (int32_t)fixed_round_up((int64_t)f->cube * t, 30);
-    const int32_t slope = f->slope0 + (int32_t)fixed_round_up((int64_t)bend * t, 30);
-
-    return f->value0 + (int32_t)fixed_round_up((int64_t)slope * t, 30);
+    return hermite_q27_term(f->value0, hermite_q27_term(f->slope0, hermite_q27_term(f->square, f->cube, t), t), t);
 }
 
 #endif

@@ -5,54 +5,48 @@
 
 #define TWO_PI_Q58 INT64_C(0x1921FB54442D1847)
 
-enum { TERMS = 9, RECIPROCAL_BITS = 30, GAP_MAX_Q27 = (int)PLANT_GAP_MAX << PLANT_FRACTION_BITS };
-
-/* 1/k in Q30; [0] is not used. */
-static const int32_t reciprocal[TERMS + 1] = {0,         1073741824, 536870912, 357913941, 268435456,
-                                              214748365, 178956971,  153391689, 134217728, 119304647};
-
-/* Where a Taylor series stands: in any one unit of at most 2^32, wider than the states so that it also makes the maps. */
-struct motion {
-    int64_t y, w;
+enum {
+    TERMS_MAX = 9,
+    TERMS_SMALL = 7, /* enough for STEP_SMALL */
+    RECIPROCAL_BITS = 30,
+    GAP_MAX_Q27 = (int)PLANT_GAP_MAX << PLANT_FRACTION_BITS
 };
 
-static int64_t times_q32(int32_t factor, int64_t value) { return fixed_round_up(factor * value, 32u); }
-static int64_t times_reciprocal(unsigned k, int64_t value) { return fixed_round_up(value * reciprocal[k], RECIPROCAL_BITS); }
+#define STEP_SMALL 429496730 /* 0.1 in Q32 */
 
-/* Series of order 9 over t (Q32): below 2^-29 for the largest step of 0.4. With e_k = t^(k-1) y^(k) each term is a
- * velocity that the next one undercuts, whatever the damping (t Cn <= 0.4). Returns the motion at t, and y at t/2. */
-static struct motion taylor(int32_t damping_t, int64_t spring, int64_t n, int32_t t, struct motion start,
-                            int64_t *middle)
+/* 1/k in Q30; [0] is not used. */
+static const int32_t reciprocal[TERMS_MAX + 1] = {0,         1073741824, 536870912, 357913941, 268435456,
+                                                  214748365, 178956971,  153391689, 134217728, 119304647};
+
+/* Sums of products in 64 bits, for what is made once. */
+static int64_t wide_times(int64_t value, int64_t factor, unsigned bits) { return fixed_round_up(value * factor, bits); }
+
+/* One column of a map over t (Q32), less the identity, in Q32: what becomes of w, and of the acceleration first/t. */
+static void make_column(int32_t damping_t, int32_t t, int64_t w, int64_t first, int32_t *y_end, int32_t *w_end)
 {
-    const int32_t t2 = (int32_t)times_q32(t, t);
-    int64_t e[TERMS + 1];
-    int64_t w, travel, half_travel;
+    const int64_t t2 = wide_times(t, t, 32u);
+    int64_t e[TERMS_MAX + 1] = {0, w, first};
+    int64_t velocity, travel;
 
-    e[1] = start.w;
-    e[2] = times_q32(t, n - spring * start.y) - times_q32(damping_t, e[1]);
-    for (unsigned k = 3u; k <= TERMS; k++) {
-        e[k] = -times_q32(damping_t, e[k - 1u]) - spring * times_q32(t2, e[k - 2u]);
+    for (unsigned k = 3u; k <= TERMS_MAX; k++) {
+        e[k] = -fixed_round_up(damping_t * e[k - 1u] + t2 * e[k - 2u], 32u);
     }
-    w = travel = half_travel = e[TERMS];
-    for (unsigned k = TERMS - 1u; k >= 1u; k--) {
-        w = e[k] + times_reciprocal(k, w);
-        travel = e[k] + times_reciprocal(k + 1u, travel);
-        half_travel = e[k] + times_reciprocal(k + 1u, fixed_round_up(half_travel, 1u));
+    velocity = travel = e[TERMS_MAX];
+    for (unsigned k = TERMS_MAX - 1u; k >= 2u; k--) {
+        velocity = e[k] + wide_times(velocity, reciprocal[k], RECIPROCAL_BITS);
+        travel = e[k] + wide_times(travel, reciprocal[k + 1u], RECIPROCAL_BITS);
     }
-    *middle = start.y + fixed_round_up(times_q32(t, half_travel), 1u);
-    return (struct motion){start.y + times_q32(t, travel), w};
+    *y_end = (int32_t)wide_times(w + fixed_round_up(travel, 1u), t, 32u);
+    *w_end = (int32_t)velocity;
 }
 
-/* Column by column: the answers to a unit force from rest, where y - n = -1, and to a unit velocity; less the identity. */
 static struct normal_q27_map make_map(int32_t damping_t, int32_t t)
 {
-    const int64_t one = INT64_C(1) << 32;
-    int64_t middle;
-    const struct motion pressed = taylor(damping_t, 1, one, t, (struct motion){0, 0}, &middle);
-    const struct motion pushed = taylor(damping_t, 1, 0, t, (struct motion){0, one}, &middle);
+    struct normal_q27_map map;
 
-    return (struct normal_q27_map){(int32_t)-pressed.y, (int32_t)pushed.y, (int32_t)-pressed.w,
-                                   (int32_t)(pushed.w - one)};
+    make_column(damping_t, t, 0, -(int64_t)t, &map.yy, &map.wy);
+    make_column(damping_t, t, INT64_C(1) << 32, -(int64_t)damping_t, &map.yw, &map.ww);
+    return map;
 }
 
 int64_t normal_q27_step(const struct scale *scale, unsigned bits)
@@ -64,9 +58,11 @@ int64_t normal_q27_step(const struct scale *scale, unsigned bits)
 
 void normal_q27_configure(struct normal_q27_coeffs *coeffs, const struct params *params, const struct scale *scale)
 {
+    coeffs->weights = SUM_Q27_WEIGHTS;
     coeffs->step = (int32_t)normal_q27_step(scale, 32u);
     coeffs->damping = fixed_saturate(fixed_times_float(normal_q27_step(scale, 38u), scale->normal_damping, 32 - 38));
     coeffs->phase_stride = SINE_GRID / scale->steps_per_period;
+    coeffs->terms = coeffs->step <= STEP_SMALL && coeffs->damping <= STEP_SMALL ? TERMS_SMALL : TERMS_MAX;
     coeffs->contact = (uint8_t)params->contact;
     coeffs->is_exact = (int)params->normal_method == NORMAL_EXACT;
     coeffs->has_phase = coeffs->is_exact && scale->normal_damping == 0.0f && coeffs->contact != CONTACT_LIFT;
@@ -85,12 +81,23 @@ static void note_change(struct normal_q27 *normal, uint8_t contact)
     normal->reach = may_lift ? INT32_MAX : fixed_saturate(reach);
 }
 
-void normal_q27_reset(struct normal_q27 *normal, const struct normal_q27_coeffs *coeffs, int32_t y, int32_t w, int32_t n)
+static void set_phase(struct normal_q27_phase *phase, int64_t cosine, int64_t sine, bool *is_saturated)
+{
+    phase->cosine = fixed_saturate_and_tell(cosine, is_saturated);
+    phase->sine = fixed_saturate_and_tell(sine, is_saturated);
+    phase->minus_cosine = -phase->cosine;
+}
+
+void normal_q27_reset(struct normal_q27 *normal, const struct normal_q27_coeffs *coeffs, int32_t y, int32_t w, int32_t n,
+                      bool *is_saturated)
 {
     normal->y = y;
     normal->w = w;
     normal->n = n;
-    normal->phase = (struct normal_q27_phase){fixed_saturate((int64_t)y - n), w, 0u};
+    normal->phase = (struct normal_q27_phase){0, 0, 0, 0u};
+    if (coeffs->has_phase) {
+        set_phase(&normal->phase, 2 * ((int64_t)y - n), 2 * (int64_t)w, is_saturated);
+    }
     normal->is_lifted = coeffs->contact == CONTACT_LIFT && (y < 0 || (y == 0 && w < 0));
     normal->is_steady_from_rest = y == 0 && w == 0 && n >= 0;
     note_change(normal, coeffs->contact);
@@ -106,25 +113,46 @@ void normal_q27_set_load(struct normal_q27 *normal, const struct normal_q27_coef
     note_change(normal, coeffs->contact);
     if (coeffs->has_phase) {
         struct normal_q27_phase *phase = &normal->phase;
-        const int64_t sine = sine_quarter_q30[phase->index];
-        const int64_t cosine = sine_quarter_q30[SINE_GRID / 4u - phase->index];
+        const int64_t sine = sine_quarter_q31[phase->index];
+        const int64_t cosine = sine_quarter_q31[SINE_GRID / 4u - phase->index];
 
-        phase->cosine = sum_q27(phase->cosine, -change * cosine, 30u, is_saturated);
-        phase->sine = sum_q27(phase->sine, -change * sine, 30u, is_saturated);
+        set_phase(phase, phase->cosine - fixed_round_up(change * cosine, 30u),
+                  phase->sine - fixed_round_up(change * sine, 30u), is_saturated);
     }
 }
 
-static void look_part(const struct normal_q27 *normal, int32_t t, int32_t damping_t, struct normal_q27_piece *piece,
-                      bool *is_saturated)
+/* Part of a step in closed form: a Taylor series over t (Q32), below 2^-29 where its terms end. With e_k = t^(k-1) y^(k)
+ * each term is a velocity and undercuts those before it: |e_k| <= 0.40 |e_(k-1)| + 0.16 |e_(k-2)|. MODEL.md has the bounds
+ * that follow: no e_k leaves 32 bits, nor does a sum but the last ones. */
+static void look_part(const struct normal_q27 *normal, const struct normal_q27_coeffs *coeffs, int32_t t,
+                      int32_t damping_t, struct normal_q27_piece *piece, bool *is_saturated)
 {
-    const struct motion start = {normal->y, normal->w};
-    int64_t middle;
-    const struct motion end = taylor(damping_t, normal->is_lifted ? 0 : 1, normal->n, t, start, &middle);
+    const int32_t t2 = normal->is_lifted ? 0 : (int32_t)fixed_round_up((int64_t)t * t, 32u);
+    const int64_t pull = (int64_t)normal->n - (normal->is_lifted ? 0 : normal->y);
+    const unsigned terms = coeffs->terms;
+    int32_t e[TERMS_MAX + 1];
+    int32_t velocity, travel, half_travel;
+    int64_t middle, end;
 
-    piece->y = fixed_saturate_and_tell(end.y, is_saturated);
-    piece->w = fixed_saturate_and_tell(end.w, is_saturated);
+    e[1] = normal->w;
+    e[2] = (int32_t)fixed_round_up(t * pull - (int64_t)damping_t * e[1], 32u);
+    for (unsigned k = 3u; k <= terms; k++) {
+        e[k] = -(int32_t)fixed_round_up((int64_t)damping_t * e[k - 1u] + (int64_t)t2 * e[k - 2u], 32u);
+    }
+    velocity = travel = half_travel = e[terms];
+    for (unsigned k = terms - 1u; k >= 3u; k--) {
+        velocity = e[k] + (int32_t)fixed_round_up((int64_t)velocity * reciprocal[k], RECIPROCAL_BITS);
+        travel = e[k] + (int32_t)fixed_round_up((int64_t)travel * reciprocal[k + 1u], RECIPROCAL_BITS);
+        half_travel = e[k] + (int32_t)fixed_round_up((int64_t)half_travel * reciprocal[k + 1u], RECIPROCAL_BITS + 1u);
+    }
+    /* The last two terms: y + t (e_1 + (e_2 + travel/3)/2), and at t/2. */
+    end = e[1] + fixed_round_up(e[2] + fixed_round_up((int64_t)travel * reciprocal[3], RECIPROCAL_BITS), 1u);
+    middle = e[1] + fixed_round_up(e[2] + fixed_round_up((int64_t)half_travel * reciprocal[3], RECIPROCAL_BITS + 1u), 2u);
+    piece->y = fixed_saturate_and_tell(normal->y + fixed_round_up(t * end, 32u), is_saturated);
+    piece->w = fixed_saturate_and_tell((int64_t)e[1] + e[2] + fixed_round_up(velocity, 1u), is_saturated);
     piece->p1 = normal_q27_force(normal, normal->y);
-    piece->p2 = normal_q27_force(normal, fixed_saturate_and_tell(middle, is_saturated));
+    piece->p2 = normal_q27_force(
+        normal, fixed_saturate_and_tell(normal->y + fixed_round_up(t * middle, 33u), is_saturated));
     piece->p3 = piece->p2;
     piece->p4 = normal_q27_force(normal, piece->y);
 }
@@ -132,17 +160,15 @@ static void look_part(const struct normal_q27 *normal, int32_t t, int32_t dampin
 void normal_q27_look(const struct normal_q27 *normal, const struct normal_q27_coeffs *coeffs, int32_t fraction,
                      bool is_whole, struct normal_q27_piece *piece, bool *is_saturated)
 {
-    const int32_t t = is_whole ? coeffs->step : fixed_product(coeffs->step, fraction, 30u);
-    const int32_t damping_t = is_whole ? coeffs->damping : fixed_product(coeffs->damping, fraction, 30u);
+    const int32_t t = is_whole ? coeffs->step : fixed_part(coeffs->step, fraction);
+    const int32_t damping_t = is_whole ? coeffs->damping : fixed_part(coeffs->damping, fraction);
 
     if (!coeffs->is_exact) {
-        normal_q27_look_rk4(normal, t, damping_t, piece, is_saturated);
+        normal_q27_look_rk4(normal, coeffs->weights, t, damping_t, piece, is_saturated);
     } else if (is_whole && !normal->is_lifted) {
-        const struct normal_q27_phase next = normal_q27_next(normal->phase, coeffs->phase_stride);
-
-        normal_q27_look_map(normal, coeffs, &next, piece, is_saturated);
+        normal_q27_look_map(normal, coeffs, piece, is_saturated);
     } else {
-        look_part(normal, t, damping_t, piece, is_saturated);
+        look_part(normal, coeffs, t, damping_t, piece, is_saturated);
     }
 }
 
@@ -155,8 +181,7 @@ void normal_q27_change_contact(struct normal_q27 *normal)
 bool normal_q27_close_step(struct normal_q27 *normal, const struct normal_q27_coeffs *coeffs, bool *is_saturated)
 {
     if (coeffs->has_phase) {
-        normal->phase = normal_q27_next(normal->phase, coeffs->phase_stride);
-        normal_q27_at(normal->n, &normal->phase, &normal->y, &normal->w, is_saturated);
+        normal_q27_at(normal, &normal->y, &normal->w, is_saturated);
     }
     if (normal->is_lifted && normal->y < -GAP_MAX_Q27) {
         normal->y = -GAP_MAX_Q27;

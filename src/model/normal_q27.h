@@ -20,30 +20,32 @@ struct normal_q27_map {
 };
 
 struct normal_q27_coeffs {
+    struct sum_q27_weights weights;
     int32_t step;    /* h */
     int32_t damping; /* h Cn */
+    struct normal_q27_map full, half; /* over h and h/2 */
     uint32_t phase_stride;
+    uint8_t terms; /* of the Taylor series */
+    uint8_t contact;
     bool is_exact;
     bool has_phase; /* exact, undamped and never lifted: y from an integer phase index */
-    uint8_t contact;
-    struct normal_q27_map full, half; /* over h and h/2 */
 };
 
-/* y = n + cosine cos(phase) + sine sin(phase). The phase is a place within a quarter turn; each full quarter turns the
- * amplitudes instead, which costs no bit. */
+/* y = n + cosine cos(phase) + sine sin(phase), w = sine cos(phase) + minus_cosine sin(phase). The phase is a place within
+ * a quarter turn; each full quarter turns the amplitudes instead, which costs no bit. Amplitudes are in Q28: |y - n| < 8. */
 struct normal_q27_phase {
-    int32_t cosine, sine;
+    int32_t cosine, sine, minus_cosine;
     uint32_t index;
 };
 
 struct normal_q27 {
     int32_t y, w; /* displacement and velocity */
     int32_t n;    /* brake force held over the present step */
-    struct normal_q27_phase phase;
     int32_t least_force; /* the contact force is y, but never less than this */
     int32_t reach; /* |y| and |w| stay within it until the load or the contact changes; INT32_MAX if nothing is known */
-    bool is_lifted;           /* spring off: contact lift and y < 0 */
-    bool is_steady_from_rest; /* from rest under a force that never changed: y >= 0 but for rounding */
+    struct normal_q27_phase phase; /* where has_phase: at the end of the present step */
+    bool is_lifted;                /* spring off: contact lift and y < 0 */
+    bool is_steady_from_rest;      /* from rest under a force that never changed: y >= 0 but for rounding */
 };
 
 /* The normal force at the four stages of RK4 over one piece of a step, and the state at its end. */
@@ -58,7 +60,8 @@ void normal_q27_configure(struct normal_q27_coeffs *coeffs, const struct params 
 int64_t normal_q27_step(const struct scale *scale, unsigned bits);
 
 /* Starts at y, w under the force n. */
-void normal_q27_reset(struct normal_q27 *normal, const struct normal_q27_coeffs *coeffs, int32_t y, int32_t w, int32_t n);
+void normal_q27_reset(struct normal_q27 *normal, const struct normal_q27_coeffs *coeffs, int32_t y, int32_t w, int32_t n,
+                      bool *is_saturated);
 
 /* A new brake force takes hold from here on. */
 void normal_q27_set_load(struct normal_q27 *normal, const struct normal_q27_coeffs *coeffs, int32_t n,
@@ -91,28 +94,29 @@ static inline int32_t normal_q27_force(const struct normal_q27 *normal, int32_t 
 
 /* --- What the fast path of the step needs inline ------------------------------------------------------------------ */
 
-/* One step on. */
-BASE_INLINE struct normal_q27_phase normal_q27_next(struct normal_q27_phase phase, uint32_t stride)
+/* A step begins: the phase goes on to its end. */
+BASE_INLINE void normal_q27_open_step(struct normal_q27 *normal, const struct normal_q27_coeffs *coeffs)
 {
-    phase.index += stride;
-    if (phase.index >= SINE_GRID / 4u) {
-        const int32_t cosine = phase.cosine;
+    struct normal_q27_phase *phase = &normal->phase;
 
-        phase.index -= SINE_GRID / 4u;
-        phase.cosine = phase.sine;
-        phase.sine = -cosine;
+    phase->index += coeffs->phase_stride;
+    if (phase->index >= SINE_GRID / 4u) {
+        phase->index -= SINE_GRID / 4u;
+        phase->cosine = phase->sine;
+        phase->sine = phase->minus_cosine;
+        phase->minus_cosine = -phase->cosine;
     }
-    return phase;
 }
 
-BASE_INLINE void normal_q27_at(int32_t n, const struct normal_q27_phase *phase, int32_t *y, int32_t *w,
-                               bool *is_saturated)
+/* Displacement and velocity on the grid. */
+BASE_INLINE void normal_q27_at(const struct normal_q27 *normal, int32_t *y, int32_t *w, bool *is_saturated)
 {
-    const int32_t sine = sine_quarter_q30[phase->index];
-    const int32_t cosine = sine_quarter_q30[SINE_GRID / 4u - phase->index];
+    const struct normal_q27_phase *phase = &normal->phase;
+    const int32_t sine = sine_quarter_q31[phase->index];
+    const int32_t cosine = sine_quarter_q31[SINE_GRID / 4u - phase->index];
 
-    *y = sum_q27(n, (int64_t)phase->cosine * cosine + (int64_t)phase->sine * sine, 30u, is_saturated);
-    *w = sum_q27(0, (int64_t)phase->sine * cosine - (int64_t)phase->cosine * sine, 30u, is_saturated);
+    *y = sum_q27(normal->n, (int64_t)phase->cosine * cosine + (int64_t)phase->sine * sine, 32u, is_saturated);
+    *w = sum_q27(0, (int64_t)phase->sine * cosine + (int64_t)phase->minus_cosine * sine, 32u, is_saturated);
 }
 
 /* h y'', less what the spring gives back. */
@@ -126,8 +130,8 @@ BASE_INLINE int32_t normal_q27_increment(const struct normal_q27 *normal, int32_
                    32u, is_saturated);
 }
 
-BASE_INLINE void normal_q27_look_rk4(const struct normal_q27 *normal, int32_t step, int32_t damping,
-                                     struct normal_q27_piece *piece, bool *is_saturated)
+BASE_INLINE void normal_q27_look_rk4(const struct normal_q27 *normal, struct sum_q27_weights weights, int32_t step,
+                                     int32_t damping, struct normal_q27_piece *piece, bool *is_saturated)
 {
     const int32_t half = step / 2;
     const int32_t y1 = normal->y;
@@ -143,8 +147,8 @@ BASE_INLINE void normal_q27_look_rk4(const struct normal_q27 *normal, int32_t st
     const int32_t w4 = sum_q27_plain(w1, a3, is_saturated);
     const int32_t a4 = normal_q27_increment(normal, step, damping, y4, w4, is_saturated);
 
-    piece->y = sum_q27_step(y1, step, sum_q27_nystrom(w1, a1, a2, a3, is_saturated), is_saturated);
-    piece->w = sum_q27_rk4(w1, a1, a2, a3, a4, is_saturated);
+    piece->y = sum_q27_step(y1, step, sum_q27_nystrom(w1, weights, a1, a2, a3, is_saturated), is_saturated);
+    piece->w = sum_q27_rk4(w1, weights, a1, a2, a3, a4, is_saturated);
     piece->p1 = normal_q27_force(normal, y1);
     piece->p2 = normal_q27_force(normal, y2);
     piece->p3 = normal_q27_force(normal, y3);
@@ -153,16 +157,15 @@ BASE_INLINE void normal_q27_look_rk4(const struct normal_q27 *normal, int32_t st
 
 /* A whole step in contact by the prepared maps, or on the grid of the phase. */
 BASE_INLINE void normal_q27_look_map(const struct normal_q27 *normal, const struct normal_q27_coeffs *coeffs,
-                                     const struct normal_q27_phase *next, struct normal_q27_piece *piece,
-                                     bool *is_saturated)
+                                     struct normal_q27_piece *piece, bool *is_saturated)
 {
     const int32_t d = sum_q27_plain(normal->y, -normal->n, is_saturated);
     const int32_t w = normal->w;
-    const int32_t middle = sum_q27(
-        normal->y, (int64_t)coeffs->half.yy * d + (int64_t)coeffs->half.yw * w, 32u, is_saturated);
+    const int32_t middle =
+        sum_q27(normal->y, (int64_t)coeffs->half.yy * d + (int64_t)coeffs->half.yw * w, 32u, is_saturated);
 
     if (coeffs->has_phase) {
-        normal_q27_at(normal->n, next, &piece->y, &piece->w, is_saturated);
+        normal_q27_at(normal, &piece->y, &piece->w, is_saturated);
     } else {
         piece->y = sum_q27(normal->y, (int64_t)coeffs->full.yy * d + (int64_t)coeffs->full.yw * w, 32u, is_saturated);
         piece->w = sum_q27(w, (int64_t)coeffs->full.wy * d + (int64_t)coeffs->full.ww * w, 32u, is_saturated);

@@ -12,7 +12,7 @@ float sine_f32(uint32_t index);
 /* cos(2 pi index/1024). [ANY] */
 static inline float sine_cosine_f32(uint32_t index) { return sine_f32(index + SINE_GRID / 4u); }
 
-/* sin(2 pi k/1024) for k = 0 ... 256 in Q30, correctly rounded. */
-extern const int32_t sine_quarter_q30[SINE_GRID / 4 + 1];
+/* sin(2 pi k/1024) for k = 0 ... 256 in Q31, correctly rounded, but that the last, 1, is 2^-31 less. */
+extern const int32_t sine_quarter_q31[SINE_GRID / 4 + 1];
 
 #endif

@@ -18,12 +18,14 @@
 enum { SLIP_Q27_FINE = 32, SLIP_Q27_WIDE = 28 };
 
 struct slip_q27_factors {
+    struct sum_q27_weights weights;
     int32_t travel; /* h/2^length_shift in Q32: x per v */
     int32_t spring; /* -h K, K = Z2 2^length_shift */
+    int32_t half_stretch, stretch; /* -h K travel/2 and -h K travel: what a velocity adds to the spring's increment */
     int32_t friction; /* h mu */
     int32_t fade;   /* -h eps */
     int32_t floor;  /* h times the floor of mu; far below any mu where there is none */
-    int64_t drag;   /* -h C with 27 bits more, so that a small C is not rounded away */
+    int64_t drag;   /* -h C with 27 bits more, so that a small C is not rounded away, and the half that rounds */
     int64_t knee;   /* (floor - friction) with 27 bits more: on the floor where -fade vr lies below it */
 };
 
@@ -42,11 +44,15 @@ struct slip_q27_end {
 /* A factor of a product whose sum must fit: wide ones stay within 4, that is 2^30. */
 BASE_INLINE int32_t slip_q27_factor(int64_t factor, bool *is_saturated)
 {
+    int32_t fit;
+
     if (is_saturated != NULL && (factor > (1 << 30) || factor < -(1 << 30))) {
         *is_saturated = true;
         return factor > 0 ? 1 << 30 : -(1 << 30);
     }
-    return (int32_t)factor;
+    fit = (int32_t)factor;
+    BASE_FORGET(fit);
+    return fit;
 }
 
 BASE_INLINE int32_t slip_q27_drive(const struct slip_q27_factors *f, int32_t disc, bool *is_saturated)
@@ -54,8 +60,8 @@ BASE_INLINE int32_t slip_q27_drive(const struct slip_q27_factors *f, int32_t dis
     return slip_q27_factor(f->friction - fixed_round_up((int64_t)f->fade * disc, 27u), is_saturated);
 }
 
-/* h x'' = (drive + fade v) p + drag v + spring x. */
-BASE_INLINE int32_t slip_q27_increment(const struct slip_q27_factors *f, const struct slip_q27_view *view, int32_t x,
+/* h x'' = (drive + fade v) p + drag v + pull, where pull is spring x in the unit of the sum. */
+BASE_INLINE int32_t slip_q27_increment(const struct slip_q27_factors *f, const struct slip_q27_view *view, int64_t pull,
                                        int32_t v, int32_t p, bool has_floor, unsigned bits, bool *is_saturated)
 {
     int32_t drive = view->drive;
@@ -66,30 +72,36 @@ BASE_INLINE int32_t slip_q27_increment(const struct slip_q27_factors *f, const s
         drive = f->floor;
         fade = 0;
     }
-    drag = slip_q27_factor(fixed_round_up(f->drag + fade, 27u), is_saturated);
-    return sum_q27(0, (int64_t)drive * p + (int64_t)drag * v + (int64_t)f->spring * x, bits, is_saturated);
+    drag = slip_q27_factor(fixed_floor(f->drag + fade, 27u), is_saturated);
+    return sum_q27_of(pull + (int64_t)drive * p + (int64_t)drag * v, bits, is_saturated);
 }
 
+/* spring x, with the half that rounds the sum. */
+BASE_INLINE int64_t slip_q27_pull(const struct slip_q27_factors *f, int32_t x, unsigned bits)
+{
+    return ((int64_t)1 << (bits - 1u)) + (int64_t)f->spring * x;
+}
+
+/* The stages need of x only what the spring makes of it, and x is linear in the velocities before. */
 BASE_INLINE void slip_q27_go(const struct slip_q27_factors *f, const struct slip_q27_view *view,
                              const struct normal_q27_piece *piece, struct slip_q27_end *end, bool has_floor,
                              unsigned bits, bool *is_saturated)
 {
-    const int32_t half = f->travel / 2;
-    const int32_t x1 = view->x;
     const int32_t v1 = view->v;
-    const int32_t a1 = slip_q27_increment(f, view, x1, v1, piece->p1, has_floor, bits, is_saturated);
-    const int32_t x2 = sum_q27_step(x1, half, v1, is_saturated);
+    const int64_t pull1 = slip_q27_pull(f, view->x, bits);
+    const int32_t a1 = slip_q27_increment(f, view, pull1, v1, piece->p1, has_floor, bits, is_saturated);
     const int32_t v2 = sum_q27_half(v1, a1, is_saturated);
-    const int32_t a2 = slip_q27_increment(f, view, x2, v2, piece->p2, has_floor, bits, is_saturated);
-    const int32_t x3 = sum_q27_step(x1, half, v2, is_saturated);
+    const int64_t pull2 = pull1 + (int64_t)f->half_stretch * v1;
+    const int32_t a2 = slip_q27_increment(f, view, pull2, v2, piece->p2, has_floor, bits, is_saturated);
     const int32_t v3 = sum_q27_half(v1, a2, is_saturated);
-    const int32_t a3 = slip_q27_increment(f, view, x3, v3, piece->p3, has_floor, bits, is_saturated);
-    const int32_t x4 = sum_q27_step(x1, f->travel, v3, is_saturated);
+    const int64_t pull3 = pull1 + (int64_t)f->half_stretch * v2;
+    const int32_t a3 = slip_q27_increment(f, view, pull3, v3, piece->p3, has_floor, bits, is_saturated);
     const int32_t v4 = sum_q27_plain(v1, a3, is_saturated);
-    const int32_t a4 = slip_q27_increment(f, view, x4, v4, piece->p4, has_floor, bits, is_saturated);
+    const int64_t pull4 = pull1 + (int64_t)f->stretch * v3;
+    const int32_t a4 = slip_q27_increment(f, view, pull4, v4, piece->p4, has_floor, bits, is_saturated);
 
-    end->x = sum_q27_step(x1, f->travel, sum_q27_nystrom(v1, a1, a2, a3, is_saturated), is_saturated);
-    end->v = sum_q27_rk4(v1, a1, a2, a3, a4, is_saturated);
+    end->x = sum_q27_step(view->x, f->travel, sum_q27_nystrom(v1, f->weights, a1, a2, a3, is_saturated), is_saturated);
+    end->v = sum_q27_rk4(v1, f->weights, a1, a2, a3, a4, is_saturated);
     end->first = a1;
 }
 

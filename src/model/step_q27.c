@@ -18,12 +18,15 @@ static void configure_factors(struct slip_q27_factors *f, const struct scale *sc
     const int64_t friction = times_step(scale, scale->friction, bits);
     const int64_t floor = times_step(scale, scale->friction_floor, bits);
 
+    f->weights = SUM_Q27_WEIGHTS;
     f->travel = (int32_t)normal_q27_step(scale, 32u - scale->length_shift);
     f->spring = fixed_saturate(-times_step(scale, scale->stiffness, bits + (int)scale->length_shift));
+    f->stretch = (int32_t)fixed_round_up((int64_t)f->spring * f->travel, 32u);
+    f->half_stretch = (int32_t)fixed_round_up((int64_t)f->spring * f->travel, 33u);
     f->friction = fixed_saturate(friction);
     f->fade = fixed_saturate(-times_step(scale, scale->friction_slope, bits));
     f->floor = fixed_saturate(floor);
-    f->drag = -times_step(scale, scale->damping, bits + 27);
+    f->drag = (1 << 26) - times_step(scale, scale->damping, bits + 27);
     f->knee = ((int64_t)f->floor - f->friction) * (1 << 27);
 }
 
@@ -73,64 +76,73 @@ void step_q27_reset(struct step_q27 *state, const struct step_q27_coeffs *coeffs
 
     state->x = fixed_from_float(params->x_initial_m / scale->length_m, bits - (int)scale->length_shift);
     state->v = fixed_from_float(params->xd_initial_m_per_s / scale->speed_m_per_s, bits);
-    normal_q27_reset(&state->normal, &coeffs->normal, y, w, first.load);
     state->is_saturated = fixed_abs(state->x) == INT32_MAX || fixed_abs(state->v) == INT32_MAX ||
                           fixed_abs(y) == INT32_MAX || fixed_abs(w) == INT32_MAX;
+    normal_q27_reset(&state->normal, &coeffs->normal, y, w, first.load, &state->is_saturated);
     state->disc = state->v;
     state->mode = PLANT_SLIP_PLUS;
     event_q27_set_speed(state, coeffs, first.speed);
 }
 
-/* Writes what the fast path has to tell; a step in pieces adds to it. */
-BASE_INLINE void report(const struct step_q27 *s, uint32_t stick, uint32_t slip_minus, struct plant_output *output)
+BASE_INLINE void report(const struct step_q27 *s, int8_t mode, struct plant_output *output)
 {
     output->x = s->x;
     output->v = s->v;
     output->y = s->normal.y;
     output->w = s->normal.w;
     output->disc = s->disc;
-    output->stick = stick;
-    output->slip_minus = slip_minus;
-    output->mode = s->mode;
+    output->stick = 0u;
+    output->slip_minus = 0u;
+    output->mode = mode;
     output->events = 0u;
     output->is_capped = false;
-    output->is_saturated = s->is_saturated;
-    output->is_lifted = s->normal.y < 0;
+    output->is_saturated = false;
+    output->is_lifted = false;
     output->is_gap_held = false;
 }
 
 void step_q27_report(const struct step_q27 *state, struct plant_output *output)
 {
-    report(state, 0u, 0u, output);
-    output->is_lifted = false;
+    report(state, state->mode, output);
+    output->is_saturated = state->is_saturated;
 }
 
-/* A whole slip step without an event; false, and nothing has changed, where there may be one. The test is that of
+/* --- The usual step: whole, without an event, everything within the bounds of the fine arithmetic ------------------ */
+
+/* Takes the step if it is one; false, and nothing has changed, where an event may lie in it. The test is that of
  * event_q27.c: a curve that stays above its first tangent stays above 0 when the tangent does. */
 BASE_INLINE bool slip_whole(struct step_q27 *s, const struct step_q27_coeffs *c, const struct normal_q27_piece *piece,
-                            bool has_floor)
+                            bool has_floor, struct plant_output *output)
 {
     const bool is_turned = s->mode < 0;
     struct slip_q27_view view = {s->x, s->v, s->disc, 0};
     struct slip_q27_end end;
-    int32_t f0;
 
     if (is_turned) {
         view = (struct slip_q27_view){-s->x, -s->v, -s->disc, 0};
     }
     view.drive = slip_q27_drive(&c->fine, view.disc, NULL);
     slip_q27_go(&c->fine, &view, piece, &end, has_floor, SLIP_Q27_FINE, NULL);
-    f0 = view.disc - view.v;
-    if (end.v > view.disc || (end.first > 0 && f0 > 0 && f0 <= end.first)) {
+    if (end.v > view.disc || (view.disc - view.v <= end.first && view.v < view.disc)) {
         return false;
     }
-    s->x = is_turned ? -end.x : end.x;
-    s->v = is_turned ? -end.v : end.v;
+    s->x = end.x;
+    s->v = end.v;
+    normal_q27_move(&s->normal, piece);
+    report(s, PLANT_SLIP_PLUS, output);
+    if (is_turned) {
+        output->x = s->x = -end.x;
+        output->v = s->v = -end.v;
+        output->mode = PLANT_SLIP_MINUS;
+        output->slip_minus = PLANT_SHARE_ONE;
+    }
+    output->is_lifted = piece->y < 0;
     return true;
 }
 
-/* A whole stick step; false, and nothing has changed, where it ends inside. */
-BASE_INLINE bool stick_whole(struct step_q27 *s, const struct step_q27_coeffs *c, const struct normal_q27_piece *piece)
+/* The same while sticking: friction still holds the pad at the end of the step. */
+BASE_INLINE bool stick_whole(struct step_q27 *s, const struct step_q27_coeffs *c, const struct normal_q27_piece *piece,
+                             struct plant_output *output)
 {
     const int32_t x = s->x + fixed_product(c->wide.travel, s->disc, 32u);
 
@@ -138,44 +150,48 @@ BASE_INLINE bool stick_whole(struct step_q27 *s, const struct step_q27_coeffs *c
         return false;
     }
     s->x = x;
+    normal_q27_move(&s->normal, piece);
+    report(s, PLANT_STICK, output);
+    output->stick = PLANT_SHARE_ONE;
+    output->is_lifted = piece->y < 0;
     return true;
 }
 
-/* The usual step, or false. */
-static inline bool advance_whole(struct step_q27 *s, const struct step_q27_coeffs *c, struct plant_output *output)
+BASE_INLINE bool advance_whole(struct step_q27 *s, const struct step_q27_coeffs *c, bool is_exact,
+                               struct plant_output *output)
 {
-    const uint32_t size = ((uint32_t)s->x + TAME_LIMIT) | ((uint32_t)s->v + TAME_LIMIT);
-    struct normal_q27_phase next = s->normal.phase;
     struct normal_q27_piece piece;
-    bool is_gone;
 
-    if (s->normal.reach >= c->reach_max || size >= 2u * TAME_LIMIT) {
-        return false;
-    }
-    if (c->normal.is_exact) {
-        next = normal_q27_next(next, c->normal.phase_stride);
-        normal_q27_look_map(&s->normal, &c->normal, &next, &piece, NULL);
+    if (is_exact) {
+        normal_q27_look_map(&s->normal, &c->normal, &piece, NULL);
     } else {
-        normal_q27_look_rk4(&s->normal, c->normal.step, c->normal.damping, &piece, NULL);
+        normal_q27_look_rk4(&s->normal, c->normal.weights, c->normal.step, c->normal.damping, &piece, NULL);
     }
     if (s->mode == PLANT_STICK) {
-        is_gone = stick_whole(s, c, &piece);
-    } else if (c->has_floor) {
-        is_gone = slip_whole(s, c, &piece, true);
-    } else {
-        is_gone = slip_whole(s, c, &piece, false);
+        return stick_whole(s, c, &piece, output);
     }
-    if (!is_gone) {
-        return false;
+    if (c->has_floor) {
+        return slip_whole(s, c, &piece, true, output);
     }
-    s->normal.phase = next;
-    normal_q27_move(&s->normal, &piece);
-    report(s, s->mode == PLANT_STICK ? PLANT_SHARE_ONE : 0u, s->mode == PLANT_SLIP_MINUS ? PLANT_SHARE_ONE : 0u,
-           output);
-    return true;
+    return slip_whole(s, c, &piece, false, output);
 }
 
-static void advance_in_pieces(struct step_q27 *s, const struct step_q27_coeffs *c, struct plant_output *output)
+static BASE_NOINLINE bool advance_whole_exact(struct step_q27 *s, const struct step_q27_coeffs *c,
+                                              struct plant_output *output)
+{
+    return advance_whole(s, c, true, output);
+}
+
+static BASE_NOINLINE bool advance_whole_rk4(struct step_q27 *s, const struct step_q27_coeffs *c,
+                                            struct plant_output *output)
+{
+    return advance_whole(s, c, false, output);
+}
+
+/* --- Any step ------------------------------------------------------------------------------------------------------ */
+
+static BASE_NOINLINE void advance_in_pieces(struct step_q27 *s, const struct step_q27_coeffs *c,
+                                            struct plant_output *output)
 {
     struct event_q27_progress progress = {NORMAL_Q27_WHOLE, true, 0u, 0u, 0u, 0u, false, false};
     bool is_gap_held;
@@ -186,25 +202,39 @@ static void advance_in_pieces(struct step_q27 *s, const struct step_q27_coeffs *
         event_q27_step(s, c, &progress);
     }
     is_gap_held = normal_q27_close_step(&s->normal, &c->normal, &s->is_saturated);
-    report(s, progress.stick, progress.slip_minus, output);
+    report(s, s->mode, output);
+    output->stick = progress.stick;
+    output->slip_minus = progress.slip_minus;
     output->events = (uint8_t)progress.events;
     output->is_capped = progress.is_capped;
+    output->is_saturated = s->is_saturated;
     output->is_lifted = progress.is_lifted;
     output->is_gap_held = is_gap_held;
+}
+
+/* |x| and |v| below 4, and a normal motion that stays within the reach of the fine arithmetic. */
+BASE_INLINE bool is_tame(const struct step_q27 *s, const struct step_q27_coeffs *c)
+{
+    const uint32_t size = ((uint32_t)s->x + TAME_LIMIT) | ((uint32_t)s->v + TAME_LIMIT);
+
+    return s->normal.reach < c->reach_max && size < 2u * TAME_LIMIT;
 }
 
 void step_q27_advance(struct step_q27 *state, const struct step_q27_coeffs *coeffs, struct step_q27_input input,
                       struct plant_output *output)
 {
-    if (input.load != state->normal.n) {
+    if (BASE_UNLIKELY(input.load != state->normal.n)) {
         normal_q27_set_load(&state->normal, &coeffs->normal, input.load, &state->is_saturated);
     }
-    if (input.speed != state->disc) {
+    if (BASE_UNLIKELY(input.speed != state->disc)) {
         event_q27_set_speed(state, coeffs, input.speed);
     }
-    if (!advance_whole(state, coeffs, output)) {
-        advance_in_pieces(state, coeffs, output);
+    normal_q27_open_step(&state->normal, &coeffs->normal);
+    if (BASE_LIKELY(is_tame(state, coeffs)) && (coeffs->normal.is_exact ? advance_whole_exact(state, coeffs, output)
+                                                                       : advance_whole_rk4(state, coeffs, output))) {
+        return;
     }
+    advance_in_pieces(state, coeffs, output);
 }
 
 int32_t step_q27_friction(const struct step_q27 *state, const struct step_q27_coeffs *coeffs)

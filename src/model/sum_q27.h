@@ -16,10 +16,27 @@
 /* base + sum/2^bits, halves up. The sum itself must fit 64 bits. */
 BASE_INLINE int32_t sum_q27(int32_t base, int64_t sum, unsigned bits, bool *is_saturated)
 {
-    if (is_saturated == NULL) {
-        return (int32_t)fixed_round_up((int64_t)base * ((int64_t)1 << bits) + sum, bits);
+    int32_t fit;
+
+    if (is_saturated != NULL) {
+        return fixed_saturate_and_tell(base + fixed_round_up(sum, bits), is_saturated);
     }
-    return fixed_saturate_and_tell(base + fixed_round_up(sum, bits), is_saturated);
+    fit = (int32_t)fixed_floor((((int64_t)base * ((int64_t)1 << bits)) | ((int64_t)1 << (bits - 1u))) + sum, bits);
+    BASE_FORGET(fit);
+    return fit;
+}
+
+/* sum/2^bits rounded down, for a sum that starts with its half. */
+BASE_INLINE int32_t sum_q27_of(int64_t sum, unsigned bits, bool *is_saturated)
+{
+    int32_t fit;
+
+    if (is_saturated != NULL) {
+        return fixed_saturate_and_tell(fixed_floor(sum, bits), is_saturated);
+    }
+    fit = (int32_t)fixed_floor(sum, bits);
+    BASE_FORGET(fit);
+    return fit;
 }
 
 /* base + value/2 and base + value. */
@@ -39,22 +56,27 @@ BASE_INLINE int32_t sum_q27_step(int32_t base, int32_t factor, int32_t value, bo
     return sum_q27(base, (int64_t)factor * value, 32u, is_saturated);
 }
 
-/* The weights of RK4, in Q32. */
-#define SUM_Q27_SIXTH 715827883
-#define SUM_Q27_THIRD 1431655765
+/* The weights of RK4 in Q32. They are variables because gcc turns a product with a constant into a row of shifts. */
+struct sum_q27_weights {
+    int32_t sixth, third;
+};
+
+#define SUM_Q27_WEIGHTS ((struct sum_q27_weights){715827883, 1431655765})
 
 /* base + (a + 2 b + 2 c + d)/6 and base + (a + b + c)/6: the textbook's sum of four, or six times one, fits no 32 bits. */
-BASE_INLINE int32_t sum_q27_rk4(int32_t base, int32_t a, int32_t b, int32_t c, int32_t d, bool *is_saturated)
+BASE_INLINE int32_t sum_q27_rk4(int32_t base, struct sum_q27_weights weights, int32_t a, int32_t b, int32_t c, int32_t d,
+                                bool *is_saturated)
 {
-    const int64_t sum = (int64_t)SUM_Q27_SIXTH * a + (int64_t)SUM_Q27_THIRD * b + (int64_t)SUM_Q27_THIRD * c +
-                        (int64_t)SUM_Q27_SIXTH * d;
+    const int64_t sum = (int64_t)weights.sixth * a + (int64_t)weights.third * b + (int64_t)weights.third * c +
+                        (int64_t)weights.sixth * d;
 
     return sum_q27(base, sum, 32u, is_saturated);
 }
 
-BASE_INLINE int32_t sum_q27_nystrom(int32_t base, int32_t a, int32_t b, int32_t c, bool *is_saturated)
+BASE_INLINE int32_t sum_q27_nystrom(int32_t base, struct sum_q27_weights weights, int32_t a, int32_t b, int32_t c,
+                                    bool *is_saturated)
 {
-    const int64_t sum = (int64_t)SUM_Q27_SIXTH * a + (int64_t)SUM_Q27_SIXTH * b + (int64_t)SUM_Q27_SIXTH * c;
+    const int64_t sum = (int64_t)weights.sixth * a + (int64_t)weights.sixth * b + (int64_t)weights.sixth * c;
 
     return sum_q27(base, sum, 32u, is_saturated);
 }

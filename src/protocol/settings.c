@@ -189,6 +189,7 @@ void settings_preset(struct console *console)
         return;
     }
     presets_load(preset, &params);
+    params.arithmetic = console->executive->arithmetic;
     restart(console, &params);
 }
 
@@ -197,6 +198,7 @@ void settings_defaults(struct console *console)
     struct params params;
 
     params_default(&params);
+    params.arithmetic = console->executive->arithmetic;
     restart(console, &params);
 }
 

@@ -247,7 +247,7 @@ const struct scale *executive_scale(const struct executive *executive, uint8_t e
     return age <= 1u ? &executive->scales[epoch & 1u] : NULL;
 }
 
-void executive_init(struct executive *executive)
+void executive_init(struct executive *executive, int arithmetic)
 {
     struct params params;
 
@@ -256,6 +256,8 @@ void executive_init(struct executive *executive)
     handoff_init(&executive->handoff, &executive->report_store, sizeof executive->report_store);
     ring_init(&executive->samples, executive->sample_store, sizeof executive->sample_store[0], EXECUTIVE_SAMPLES);
     params_default(&params);
+    executive->arithmetic = (float)arithmetic;
+    params.arithmetic = executive->arithmetic;
     (void)executive_reset(executive, &params); /* the defaults pass their own check: tested */
     executive_tick(executive, false);
 }

@@ -78,12 +78,14 @@ struct executive {
     struct word is_free; /* main: endless credit */
 
     /* main's own */
+    float arithmetic;             /* of the defaults on this board */
     struct executive_order draft; /* last order given */
     struct scale scales[2];       /* by epoch & 1, for samples that are still on their way */
 };
 
-/* Starts with the defaults; the plant stands at step 0 without credit. [INIT] */
-void executive_init(struct executive *executive);
+/* Starts with the defaults in the given number format (ARITH_F32 or ARITH_Q27), which is the board's; the plant stands at
+ * step 0 without credit. [INIT] */
+void executive_init(struct executive *executive, int arithmetic);
 
 /* --- main --------------------------------------------------------------------------------------------------------- */
 

@@ -96,7 +96,7 @@ void plants_executive(struct executive *executive, const char *assignments)
 {
     const struct params params = plants_params(assignments);
 
-    executive_init(executive);
+    executive_init(executive, ARITH_F32);
     (void)executive_reset(executive, &params);
     executive_tick(executive, false);
 }

@@ -24,7 +24,7 @@ static uint32_t hash_after(const char *assignments, uint32_t steps)
 
 static void check_init(void)
 {
-    executive_init(&executive);
+    executive_init(&executive, ARITH_F32);
     tap_check(!executive_has_order(&executive) && look()->now.step == 0u && look()->generation == 1u,
               "it starts with the defaults in force");
     tap_check(!executive_wants_tick(&executive) && executive_credit(&executive) == 0u, "without credit");
