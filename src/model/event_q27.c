@@ -322,8 +322,8 @@ void event_q27_naive_step(struct step_q27 *s, const struct step_q27_coeffs *c, s
     a4 = naive_increment(s, c, fixed_saturate_and_tell((int64_t)s->x + fixed_product(travel, v3, 32u), tell), v4,
                          piece.p4);
     {
-        const int64_t mean = fixed_shift_right(c->wide.weights.sixth * ((int64_t)a1 + a2 + a3), 32u) + s->v;
-        const int64_t gain = c->wide.weights.sixth * ((int64_t)a1 + a4) + c->wide.weights.third * ((int64_t)a2 + a3);
+        const int64_t mean = fixed_shift_right(SUM_Q27_SIXTH * ((int64_t)a1 + a2 + a3), 32u) + s->v;
+        const int64_t gain = SUM_Q27_SIXTH * ((int64_t)a1 + 2 * ((int64_t)a2 + a3) + a4);
 
         s->x = fixed_saturate_and_tell(
             s->x + fixed_shift_right((int64_t)travel * fixed_saturate_and_tell(mean, tell), 32u), tell);

@@ -58,7 +58,7 @@ int64_t normal_q27_step(const struct scale *scale, unsigned bits)
 
 void normal_q27_configure(struct normal_q27_coeffs *coeffs, const struct params *params, const struct scale *scale)
 {
-    coeffs->weights = SUM_Q27_WEIGHTS;
+    coeffs->sixth = SUM_Q27_SIXTH;
     coeffs->step = (int32_t)normal_q27_step(scale, 32u);
     coeffs->damping = fixed_saturate(fixed_times_float(normal_q27_step(scale, 38u), scale->normal_damping, 32 - 38));
     coeffs->phase_stride = SINE_GRID / scale->steps_per_period;
@@ -164,7 +164,7 @@ void normal_q27_look(const struct normal_q27 *normal, const struct normal_q27_co
     const int32_t damping_t = is_whole ? coeffs->damping : fixed_part(coeffs->damping, fraction);
 
     if (!coeffs->is_exact) {
-        normal_q27_look_rk4(normal, coeffs->weights, t, damping_t, piece, is_saturated);
+        normal_q27_look_rk4(normal, coeffs->sixth, t, damping_t, piece, is_saturated);
     } else if (is_whole && !normal->is_lifted) {
         normal_q27_look_map(normal, coeffs, piece, is_saturated);
     } else {

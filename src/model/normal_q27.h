@@ -20,7 +20,7 @@ struct normal_q27_map {
 };
 
 struct normal_q27_coeffs {
-    struct sum_q27_weights weights;
+    int32_t sixth;   /* SUM_Q27_SIXTH */
     int32_t step;    /* h */
     int32_t damping; /* h Cn */
     struct normal_q27_map full, half; /* over h and h/2 */
@@ -130,7 +130,7 @@ BASE_INLINE int32_t normal_q27_increment(const struct normal_q27 *normal, int32_
                    32u, is_saturated);
 }
 
-BASE_INLINE void normal_q27_look_rk4(const struct normal_q27 *normal, struct sum_q27_weights weights, int32_t step,
+BASE_INLINE void normal_q27_look_rk4(const struct normal_q27 *normal, int32_t sixth, int32_t step,
                                      int32_t damping, struct normal_q27_piece *piece, bool *is_saturated)
 {
     const int32_t half = step / 2;
@@ -146,9 +146,10 @@ BASE_INLINE void normal_q27_look_rk4(const struct normal_q27 *normal, struct sum
     const int32_t y4 = sum_q27_step(y1, step, w3, is_saturated);
     const int32_t w4 = sum_q27_plain(w1, a3, is_saturated);
     const int32_t a4 = normal_q27_increment(normal, step, damping, y4, w4, is_saturated);
+    int32_t mean;
 
-    piece->y = sum_q27_step(y1, step, sum_q27_nystrom(w1, weights, a1, a2, a3, is_saturated), is_saturated);
-    piece->w = sum_q27_rk4(w1, weights, a1, a2, a3, a4, is_saturated);
+    piece->w = sum_q27_rk4(w1, sixth, a1, a2, a3, a4, &mean, is_saturated);
+    piece->y = sum_q27_step(y1, step, mean, is_saturated);
     piece->p1 = normal_q27_force(normal, y1);
     piece->p2 = normal_q27_force(normal, y2);
     piece->p3 = normal_q27_force(normal, y3);

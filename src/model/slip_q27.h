@@ -18,7 +18,7 @@
 enum { SLIP_Q27_FINE = 32, SLIP_Q27_WIDE = 28 };
 
 struct slip_q27_factors {
-    struct sum_q27_weights weights;
+    int32_t sixth; /* SUM_Q27_SIXTH */
     int32_t travel; /* h/2^length_shift in Q32: x per v */
     int32_t spring; /* -h K, K = Z2 2^length_shift */
     int32_t half_stretch, stretch; /* -h K travel/2 and -h K travel: what a velocity adds to the spring's increment */
@@ -99,9 +99,10 @@ BASE_INLINE void slip_q27_go(const struct slip_q27_factors *f, const struct slip
     const int32_t v4 = sum_q27_plain(v1, a3, is_saturated);
     const int64_t pull4 = pull1 + (int64_t)f->stretch * v3;
     const int32_t a4 = slip_q27_increment(f, view, pull4, v4, piece->p4, has_floor, bits, is_saturated);
+    int32_t mean;
 
-    end->x = sum_q27_step(view->x, f->travel, sum_q27_nystrom(v1, f->weights, a1, a2, a3, is_saturated), is_saturated);
-    end->v = sum_q27_rk4(v1, f->weights, a1, a2, a3, a4, is_saturated);
+    end->v = sum_q27_rk4(v1, f->sixth, a1, a2, a3, a4, &mean, is_saturated);
+    end->x = sum_q27_step(view->x, f->travel, mean, is_saturated);
     end->first = a1;
 }
 

@@ -18,7 +18,7 @@ static void configure_factors(struct slip_q27_factors *f, const struct scale *sc
     const int64_t friction = times_step(scale, scale->friction, bits);
     const int64_t floor = times_step(scale, scale->friction_floor, bits);
 
-    f->weights = SUM_Q27_WEIGHTS;
+    f->sixth = SUM_Q27_SIXTH;
     f->travel = (int32_t)normal_q27_step(scale, 32u - scale->length_shift);
     f->spring = fixed_saturate(-times_step(scale, scale->stiffness, bits + (int)scale->length_shift));
     f->stretch = (int32_t)fixed_round_up((int64_t)f->spring * f->travel, 32u);
@@ -165,7 +165,7 @@ BASE_INLINE bool advance_whole(struct step_q27 *s, const struct step_q27_coeffs 
     if (is_exact) {
         normal_q27_look_map(&s->normal, &c->normal, &piece, NULL);
     } else {
-        normal_q27_look_rk4(&s->normal, c->normal.weights, c->normal.step, c->normal.damping, &piece, NULL);
+        normal_q27_look_rk4(&s->normal, c->normal.sixth, c->normal.step, c->normal.damping, &piece, NULL);
     }
     if (s->mode == PLANT_STICK) {
         return stick_whole(s, c, &piece, output);
@@ -174,12 +174,6 @@ BASE_INLINE bool advance_whole(struct step_q27 *s, const struct step_q27_coeffs 
         return slip_whole(s, c, &piece, true, output);
     }
     return slip_whole(s, c, &piece, false, output);
-}
-
-static BASE_NOINLINE bool advance_whole_exact(struct step_q27 *s, const struct step_q27_coeffs *c,
-                                              struct plant_output *output)
-{
-    return advance_whole(s, c, true, output);
 }
 
 static BASE_NOINLINE bool advance_whole_rk4(struct step_q27 *s, const struct step_q27_coeffs *c,
@@ -220,19 +214,28 @@ BASE_INLINE bool is_tame(const struct step_q27 *s, const struct step_q27_coeffs 
     return s->normal.reach < c->reach_max && size < 2u * TAME_LIMIT;
 }
 
+static BASE_NOINLINE void take_input(struct step_q27 *s, const struct step_q27_coeffs *c, int32_t load, int32_t speed)
+{
+    if (load != s->normal.n) {
+        normal_q27_set_load(&s->normal, &c->normal, load, &s->is_saturated);
+    }
+    if (speed != s->disc) {
+        event_q27_set_speed(s, c, speed);
+    }
+}
+
 void step_q27_advance(struct step_q27 *state, const struct step_q27_coeffs *coeffs, struct step_q27_input input,
                       struct plant_output *output)
 {
-    if (BASE_UNLIKELY(input.load != state->normal.n)) {
-        normal_q27_set_load(&state->normal, &coeffs->normal, input.load, &state->is_saturated);
-    }
-    if (BASE_UNLIKELY(input.speed != state->disc)) {
-        event_q27_set_speed(state, coeffs, input.speed);
+    if (BASE_UNLIKELY(input.load != state->normal.n || input.speed != state->disc)) {
+        take_input(state, coeffs, input.load, input.speed);
     }
     normal_q27_open_step(&state->normal, &coeffs->normal);
-    if (BASE_LIKELY(is_tame(state, coeffs)) && (coeffs->normal.is_exact ? advance_whole_exact(state, coeffs, output)
-                                                                       : advance_whole_rk4(state, coeffs, output))) {
-        return;
+    if (BASE_LIKELY(is_tame(state, coeffs))) {
+        if (coeffs->normal.is_exact ? advance_whole(state, coeffs, true, output)
+                                    : advance_whole_rk4(state, coeffs, output)) {
+            return;
+        }
     }
     advance_in_pieces(state, coeffs, output);
 }

@@ -56,29 +56,24 @@ BASE_INLINE int32_t sum_q27_step(int32_t base, int32_t factor, int32_t value, bo
     return sum_q27(base, (int64_t)factor * value, 32u, is_saturated);
 }
 
-/* The weights of RK4 in Q32. They are variables because gcc turns a product with a constant into a row of shifts. */
-struct sum_q27_weights {
-    int32_t sixth, third;
-};
+/* One sixth in Q32. Passed as a variable, because gcc makes a row of shifts of a product with a constant. */
+#define SUM_Q27_SIXTH 715827883
 
-#define SUM_Q27_WEIGHTS ((struct sum_q27_weights){715827883, 1431655765})
-
-/* base + (a + 2 b + 2 c + d)/6 and base + (a + b + c)/6: the textbook's sum of four, or six times one, fits no 32 bits. */
-BASE_INLINE int32_t sum_q27_rk4(int32_t base, struct sum_q27_weights weights, int32_t a, int32_t b, int32_t c, int32_t d,
+/* The two sums of RK4 by Nystrom's formulas: mean = base + (a + b + c)/6, which the position takes, and the next
+ * value = mean + (b + c + d)/6. The textbook's sum, six times as large, fits no 32 bits. */
+BASE_INLINE int32_t sum_q27_rk4(int32_t base, int32_t sixth, int32_t a, int32_t b, int32_t c, int32_t d, int32_t *mean,
                                 bool *is_saturated)
 {
-    const int64_t sum = (int64_t)weights.sixth * a + (int64_t)weights.third * b + (int64_t)weights.third * c +
-                        (int64_t)weights.sixth * d;
+    int64_t sum;
 
-    return sum_q27(base, sum, 32u, is_saturated);
-}
-
-BASE_INLINE int32_t sum_q27_nystrom(int32_t base, struct sum_q27_weights weights, int32_t a, int32_t b, int32_t c,
-                                    bool *is_saturated)
-{
-    const int64_t sum = (int64_t)weights.sixth * a + (int64_t)weights.sixth * b + (int64_t)weights.sixth * c;
-
-    return sum_q27(base, sum, 32u, is_saturated);
+    if (is_saturated != NULL) {
+        sum = (int64_t)sixth * a + (int64_t)sixth * b + (int64_t)sixth * c;
+        *mean = sum_q27(base, sum, 32u, is_saturated);
+        return sum_q27(base, sum + (int64_t)sixth * b + (int64_t)sixth * c + (int64_t)sixth * d, 32u, is_saturated);
+    }
+    sum = (((int64_t)base * ((int64_t)1 << 32)) | ((int64_t)1 << 31)) + (int64_t)sixth * (a + (b + c));
+    *mean = sum_q27_of(sum, 32u, NULL);
+    return sum_q27_of(sum + (int64_t)sixth * (b + c) + (int64_t)sixth * d, 32u, NULL);
 }
 
 #endif
