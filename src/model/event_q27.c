@@ -11,21 +11,28 @@ enum {
 
 static int32_t signed_by(int8_t sign, int32_t value) { return sign < 0 ? -value : value; }
 
-/* The factors of a part of the step. */
-static void take_part(const struct slip_q27_factors *whole, int32_t fraction, struct slip_q27_factors *part)
+/* The factors of a part of the step; the whole has them ready. */
+static const struct slip_q27_factors *take_part(const struct step_q27_coeffs *c, int32_t fraction,
+                                                struct slip_q27_factors *part)
 {
-    *part = *whole;
-    if (fraction < NORMAL_Q27_WHOLE) {
-        part->travel = fixed_part(whole->travel, fraction);
-        part->spring = fixed_part(whole->spring, fraction);
-        part->stretch = (int32_t)fixed_round_up((int64_t)part->spring * part->travel, 32u);
-        part->half_stretch = (int32_t)fixed_round_up((int64_t)part->spring * part->travel, 33u);
-        part->friction = fixed_part(whole->friction, fraction);
-        part->fade = fixed_part(whole->fade, fraction);
+    const struct slip_q27_factors *whole = &c->wide;
+
+    if (fraction == NORMAL_Q27_WHOLE) {
+        return whole;
+    }
+    part->sixth = whole->sixth;
+    part->travel = fixed_part(whole->travel, fraction);
+    part->spring = fixed_part(whole->spring, fraction);
+    part->stretch = (int32_t)fixed_round_up((int64_t)part->spring * part->travel, 32u);
+    part->half_stretch = (int32_t)fixed_round_up((int64_t)part->spring * part->travel, 33u);
+    part->friction = fixed_part(whole->friction, fraction);
+    part->fade = fixed_part(whole->fade, fraction);
+    part->drag = (int64_t)fixed_part(c->drag, fraction) * (1 << 27) + (1 << 26);
+    if (c->has_floor) {
         part->floor = fixed_part(whole->floor, fraction);
-        part->drag = fixed_round_up(fixed_round_up(whole->drag, 27u) * fraction, 3u) + (1 << 26);
         part->knee = ((int64_t)part->floor - part->friction) * (1 << 27);
     }
+    return part;
 }
 
 /* The pad as seen from the given side. */
@@ -135,18 +142,21 @@ static int32_t find_crossing(struct step_q27 *s, const struct step_q27_coeffs *c
 }
 
 static void slip_piece(struct step_q27 *s, const struct step_q27_coeffs *c, struct event_q27_progress *progress,
-                       struct normal_q27_piece *piece, int32_t fraction)
+                       struct normal_q27_piece *piece, int32_t fraction, const struct slip_q27_end *known)
 {
     const int8_t side = s->mode;
-    struct slip_q27_factors factors;
-    struct slip_q27_view view;
+    struct slip_q27_factors part;
+    const struct slip_q27_factors *factors = take_part(c, fraction, &part);
+    struct slip_q27_view view = view_from(s, factors, side);
     struct slip_q27_end end;
     int32_t place;
 
-    take_part(&c->wide, fraction, &factors);
-    view = view_from(s, &factors, side);
-    slip(s, c, &factors, &view, piece, &end);
-    place = find_crossing(s, c, &factors, &view, piece, &end);
+    if (known != NULL) {
+        end = *known;
+    } else {
+        slip(s, c, factors, &view, piece, &end);
+    }
+    place = find_crossing(s, c, factors, &view, piece, &end);
     if (place != NOT_HERE && progress->events == PLANT_EVENTS_MAX) {
         progress->is_capped = true;
         place = NOT_HERE;
@@ -160,9 +170,9 @@ static void slip_piece(struct step_q27 *s, const struct step_q27_coeffs *c, stru
     progress->events++;
     fraction = look(s, c, place, fraction, piece);
     if (fraction > 0) {
-        take_part(&c->wide, fraction, &factors);
-        view = view_from(s, &factors, side);
-        slip(s, c, &factors, &view, piece, &end);
+        factors = take_part(c, fraction, &part);
+        view = view_from(s, factors, side);
+        slip(s, c, factors, &view, piece, &end);
         advance(s, progress, piece, fraction);
         s->x = signed_by(side, end.x);
     }
@@ -267,21 +277,28 @@ static void change_contact(struct step_q27 *s, const struct step_q27_coeffs *c, 
     }
 }
 
-void event_q27_step(struct step_q27 *s, const struct step_q27_coeffs *c, struct event_q27_progress *progress)
+void event_q27_step(struct step_q27 *s, const struct step_q27_coeffs *c, struct event_q27_progress *progress,
+                    const struct event_q27_attempt *attempt)
 {
     while (progress->rest > REST_LEAST) {
         const unsigned events = progress->events;
+        const struct slip_q27_end *known = NULL;
         struct normal_q27_piece piece;
         int32_t fraction;
         bool contact_changes;
 
-        normal_q27_look(&s->normal, &c->normal, progress->rest, progress->is_whole, &piece, &s->is_saturated);
+        if (attempt != NULL && progress->is_whole) {
+            piece = attempt->piece;
+            known = &attempt->end;
+        } else {
+            normal_q27_look(&s->normal, &c->normal, progress->rest, progress->is_whole, &piece, &s->is_saturated);
+        }
         fraction = cut_at_contact(s, c, progress, &piece, &contact_changes);
         if (fraction > 0) {
             if (s->mode == PLANT_STICK) {
                 stick_piece(s, c, progress, &piece, fraction);
             } else {
-                slip_piece(s, c, progress, &piece, fraction);
+                slip_piece(s, c, progress, &piece, fraction, contact_changes ? NULL : known);
             }
         }
         if (contact_changes && progress->events == events) {

@@ -14,7 +14,16 @@ struct event_q27_progress {
     bool is_capped, is_lifted;
 };
 
-void event_q27_step(struct step_q27 *s, const struct step_q27_coeffs *c, struct event_q27_progress *progress);
+/* What the fast path knows of a whole step when it finds that it does not serve: the normal motion, and where the pad
+ * slips, its end as seen from its side. */
+struct event_q27_attempt {
+    struct normal_q27_piece piece;
+    struct slip_q27_end end;
+};
+
+/* attempt may be NULL. */
+void event_q27_step(struct step_q27 *s, const struct step_q27_coeffs *c, struct event_q27_progress *progress,
+                    const struct event_q27_attempt *attempt);
 
 /* RK4 on the raw sign. */
 void event_q27_naive_step(struct step_q27 *s, const struct step_q27_coeffs *c, struct event_q27_progress *progress);

@@ -107,85 +107,8 @@ void step_q27_report(const struct step_q27 *state, struct plant_output *output)
     output->is_saturated = state->is_saturated;
 }
 
-/* --- The usual step: whole, without an event, everything within the bounds of the fine arithmetic ------------------ */
-
-/* Takes the step if it is one; false, and nothing has changed, where an event may lie in it. The test is that of
- * event_q27.c: a curve that stays above its first tangent stays above 0 when the tangent does. */
-BASE_INLINE bool slip_whole(struct step_q27 *s, const struct step_q27_coeffs *c, const struct normal_q27_piece *piece,
-                            bool has_floor, struct plant_output *output)
-{
-    const bool is_turned = s->mode < 0;
-    struct slip_q27_view view = {s->x, s->v, s->disc, 0};
-    struct slip_q27_end end;
-
-    if (is_turned) {
-        view = (struct slip_q27_view){-s->x, -s->v, -s->disc, 0};
-    }
-    view.drive = slip_q27_drive(&c->fine, view.disc, NULL);
-    slip_q27_go(&c->fine, &view, piece, &end, has_floor, SLIP_Q27_FINE, NULL);
-    if (end.v > view.disc || (view.disc - view.v <= end.first && view.v < view.disc)) {
-        return false;
-    }
-    s->x = end.x;
-    s->v = end.v;
-    normal_q27_move(&s->normal, piece);
-    report(s, PLANT_SLIP_PLUS, output);
-    if (is_turned) {
-        output->x = s->x = -end.x;
-        output->v = s->v = -end.v;
-        output->mode = PLANT_SLIP_MINUS;
-        output->slip_minus = PLANT_SHARE_ONE;
-    }
-    output->is_lifted = piece->y < 0;
-    return true;
-}
-
-/* The same while sticking: friction still holds the pad at the end of the step. */
-BASE_INLINE bool stick_whole(struct step_q27 *s, const struct step_q27_coeffs *c, const struct normal_q27_piece *piece,
-                             struct plant_output *output)
-{
-    const int32_t x = s->x + fixed_product(c->wide.travel, s->disc, 32u);
-
-    if (!event_q27_is_held(c, x, s->disc, piece->p4, 0)) {
-        return false;
-    }
-    s->x = x;
-    normal_q27_move(&s->normal, piece);
-    report(s, PLANT_STICK, output);
-    output->stick = PLANT_SHARE_ONE;
-    output->is_lifted = piece->y < 0;
-    return true;
-}
-
-BASE_INLINE bool advance_whole(struct step_q27 *s, const struct step_q27_coeffs *c, bool is_exact,
-                               struct plant_output *output)
-{
-    struct normal_q27_piece piece;
-
-    if (is_exact) {
-        normal_q27_look_map(&s->normal, &c->normal, &piece, NULL);
-    } else {
-        normal_q27_look_rk4(&s->normal, c->normal.sixth, c->normal.step, c->normal.damping, &piece, NULL);
-    }
-    if (s->mode == PLANT_STICK) {
-        return stick_whole(s, c, &piece, output);
-    }
-    if (c->has_floor) {
-        return slip_whole(s, c, &piece, true, output);
-    }
-    return slip_whole(s, c, &piece, false, output);
-}
-
-static BASE_NOINLINE bool advance_whole_rk4(struct step_q27 *s, const struct step_q27_coeffs *c,
-                                            struct plant_output *output)
-{
-    return advance_whole(s, c, false, output);
-}
-
-/* --- Any step ------------------------------------------------------------------------------------------------------ */
-
 static BASE_NOINLINE void advance_in_pieces(struct step_q27 *s, const struct step_q27_coeffs *c,
-                                            struct plant_output *output)
+                                            const struct event_q27_attempt *attempt, struct plant_output *output)
 {
     struct event_q27_progress progress = {NORMAL_Q27_WHOLE, true, 0u, 0u, 0u, 0u, false, false};
     bool is_gap_held;
@@ -193,7 +116,7 @@ static BASE_NOINLINE void advance_in_pieces(struct step_q27 *s, const struct ste
     if (c->is_naive) {
         event_q27_naive_step(s, c, &progress);
     } else {
-        event_q27_step(s, c, &progress);
+        event_q27_step(s, c, &progress, attempt);
     }
     is_gap_held = normal_q27_close_step(&s->normal, &c->normal, &s->is_saturated);
     report(s, s->mode, output);
@@ -206,6 +129,85 @@ static BASE_NOINLINE void advance_in_pieces(struct step_q27 *s, const struct ste
     output->is_gap_held = is_gap_held;
 }
 
+/* --- The usual step: whole, without an event, everything within the bounds of the fine arithmetic ------------------ */
+
+/* An event may lie in the step, where this test does not exclude it, which is that of event_q27.c: a curve that stays above
+ * its first tangent stays above 0 when the tangent does. */
+BASE_INLINE void slip_whole(struct step_q27 *s, const struct step_q27_coeffs *c, const struct normal_q27_piece *piece,
+                            bool has_floor, struct plant_output *output)
+{
+    const bool is_turned = s->mode < 0;
+    struct slip_q27_view view = {s->x, s->v, s->disc, 0};
+    struct slip_q27_end end;
+
+    if (is_turned) {
+        view = (struct slip_q27_view){-s->x, -s->v, -s->disc, 0};
+    }
+    view.drive = slip_q27_drive(&c->fine, view.disc, NULL);
+    slip_q27_go(&c->fine, &view, piece, &end, has_floor, SLIP_Q27_FINE, NULL);
+    if (BASE_UNLIKELY(end.v > view.disc || (view.disc - view.v <= end.first && view.v < view.disc))) {
+        const struct event_q27_attempt attempt = {*piece, end};
+
+        advance_in_pieces(s, c, &attempt, output);
+        return;
+    }
+    s->x = end.x;
+    s->v = end.v;
+    normal_q27_move(&s->normal, piece);
+    report(s, PLANT_SLIP_PLUS, output);
+    if (is_turned) {
+        output->x = s->x = -end.x;
+        output->v = s->v = -end.v;
+        output->mode = PLANT_SLIP_MINUS;
+        output->slip_minus = PLANT_SHARE_ONE;
+    }
+    output->is_lifted = piece->y < 0;
+}
+
+/* The step is whole if friction still holds the pad at its end. */
+BASE_INLINE void stick_whole(struct step_q27 *s, const struct step_q27_coeffs *c, const struct normal_q27_piece *piece,
+                             struct plant_output *output)
+{
+    const int32_t x = s->x + fixed_product(c->wide.travel, s->disc, 32u);
+
+    if (BASE_UNLIKELY(!event_q27_is_held(c, x, s->disc, piece->p4, 0))) {
+        const struct event_q27_attempt attempt = {*piece, {0, 0, 0}};
+
+        advance_in_pieces(s, c, &attempt, output);
+        return;
+    }
+    s->x = x;
+    normal_q27_move(&s->normal, piece);
+    report(s, PLANT_STICK, output);
+    output->stick = PLANT_SHARE_ONE;
+    output->is_lifted = piece->y < 0;
+}
+
+BASE_INLINE void advance_tame(struct step_q27 *s, const struct step_q27_coeffs *c, bool is_exact,
+                              struct plant_output *output)
+{
+    struct normal_q27_piece piece;
+
+    if (is_exact) {
+        normal_q27_look_map(&s->normal, &c->normal, &piece, NULL);
+    } else {
+        normal_q27_look_rk4(&s->normal, c->normal.sixth, c->normal.step, c->normal.damping, &piece, NULL);
+    }
+    if (s->mode == PLANT_STICK) {
+        stick_whole(s, c, &piece, output);
+    } else if (c->has_floor) {
+        slip_whole(s, c, &piece, true, output);
+    } else {
+        slip_whole(s, c, &piece, false, output);
+    }
+}
+
+static BASE_NOINLINE void advance_tame_rk4(struct step_q27 *s, const struct step_q27_coeffs *c,
+                                           struct plant_output *output)
+{
+    advance_tame(s, c, false, output);
+}
+
 /* |x| and |v| below 4, and a normal motion that stays within the reach of the fine arithmetic. */
 BASE_INLINE bool is_tame(const struct step_q27 *s, const struct step_q27_coeffs *c)
 {
@@ -213,6 +215,8 @@ BASE_INLINE bool is_tame(const struct step_q27 *s, const struct step_q27_coeffs 
 
     return s->normal.reach < c->reach_max && size < 2u * TAME_LIMIT;
 }
+
+/* ------------------------------------------------------------------------------------------------------------------ */
 
 static BASE_NOINLINE void take_input(struct step_q27 *s, const struct step_q27_coeffs *c, int32_t load, int32_t speed)
 {
@@ -231,13 +235,13 @@ void step_q27_advance(struct step_q27 *state, const struct step_q27_coeffs *coef
         take_input(state, coeffs, input.load, input.speed);
     }
     normal_q27_open_step(&state->normal, &coeffs->normal);
-    if (BASE_LIKELY(is_tame(state, coeffs))) {
-        if (coeffs->normal.is_exact ? advance_whole(state, coeffs, true, output)
-                                    : advance_whole_rk4(state, coeffs, output)) {
-            return;
-        }
+    if (BASE_UNLIKELY(!is_tame(state, coeffs))) {
+        advance_in_pieces(state, coeffs, NULL, output);
+    } else if (coeffs->normal.is_exact) {
+        advance_tame(state, coeffs, true, output);
+    } else {
+        advance_tame_rk4(state, coeffs, output);
     }
-    advance_in_pieces(state, coeffs, output);
 }
 
 int32_t step_q27_friction(const struct step_q27 *state, const struct step_q27_coeffs *coeffs)
