@@ -4,20 +4,68 @@
 #include "model/hermite_q27.h"
 
 enum {
+    ONE = NORMAL_Q27_WHOLE,
     REST_LEAST = 1 << 10, /* of a step in Q30: nothing happens in what is left then */
-    NOT_HERE = -1,
-    FACTOR_BITS = SLIP_Q27_WIDE
+    NOT_HERE = -1
+};
+
+/* A stretch of the step without a change of contact, on which y is known. Places on it run from 0 to ONE. */
+struct stretch {
+    struct normal_q27_arc arc;
+    int32_t fraction; /* of the step */
+    int32_t at;       /* where the pad is */
+};
+
+/* One step at work. */
+struct work {
+    struct step_q27 *s;
+    const struct step_q27_coeffs *c;
+    struct event_q27_progress *progress;
+    struct stretch stretch;
+    bool is_fine;
 };
 
 static int32_t signed_by(int8_t sign, int32_t value) { return sign < 0 ? -value : value; }
 
+static int32_t force_at(const struct work *work, int32_t place)
+{
+    return normal_q27_force(&work->s->normal, normal_q27_arc_y(&work->stretch.arc, place));
+}
+
+/* The way from here to a place on the stretch, as a fraction of the step. */
+static int32_t fraction_to(const struct work *work, int32_t place)
+{
+    return fixed_part(work->stretch.fraction, place - work->stretch.at);
+}
+
+/* A place between here and the end of the stretch. */
+static int32_t place_within(const struct work *work, int32_t part)
+{
+    return work->stretch.at + fixed_part(part, ONE - work->stretch.at);
+}
+
+/* Books the way to a place and goes there. */
+static void move_to(struct work *work, int32_t place)
+{
+    const uint32_t fraction = (uint32_t)fraction_to(work, place);
+
+    if (work->s->mode == PLANT_STICK) {
+        work->progress->stick += fraction;
+    } else if (work->s->mode == PLANT_SLIP_MINUS) {
+        work->progress->slip_minus += fraction;
+    }
+    work->stretch.at = place;
+    work->s->normal.y = normal_q27_arc_y(&work->stretch.arc, place);
+    work->progress->is_lifted = work->progress->is_lifted || work->s->normal.y < 0;
+}
+
 /* The factors of a part of the step; the whole has them ready. */
-static const struct slip_q27_factors *take_part(const struct step_q27_coeffs *c, int32_t fraction,
+static const struct slip_q27_factors *take_part(const struct work *work, int32_t fraction,
                                                 struct slip_q27_factors *part)
 {
-    const struct slip_q27_factors *whole = &c->wide;
+    const struct slip_q27_factors *whole = work->is_fine ? &work->c->fine : &work->c->wide;
 
-    if (fraction == NORMAL_Q27_WHOLE) {
+    if (fraction == ONE) {
         return whole;
     }
     part->sixth = whole->sixth;
@@ -27,33 +75,65 @@ static const struct slip_q27_factors *take_part(const struct step_q27_coeffs *c,
     part->half_stretch = (int32_t)fixed_round_up((int64_t)part->spring * part->travel, 33u);
     part->friction = fixed_part(whole->friction, fraction);
     part->fade = fixed_part(whole->fade, fraction);
-    part->drag = (int64_t)fixed_part(c->drag, fraction) * (1 << 27) + (1 << 26);
-    if (c->has_floor) {
+    part->drag = fixed_part((int32_t)fixed_floor(whole->drag, 27u), fraction) * (INT64_C(1) << 27) + (1 << 26);
+    if (work->c->has_floor) {
         part->floor = fixed_part(whole->floor, fraction);
         part->knee = ((int64_t)part->floor - part->friction) * (1 << 27);
     }
     return part;
 }
 
+/* --- Slip, in the arithmetic that serves --------------------------------------------------------------------------- */
+
 /* The pad as seen from the given side. */
-static struct slip_q27_view view_from(struct step_q27 *s, const struct slip_q27_factors *f, int8_t side)
+static struct slip_q27_view view_from(const struct work *work, const struct slip_q27_factors *f, int8_t side)
 {
+    struct step_q27 *s = work->s;
     struct slip_q27_view view = {signed_by(side, s->x), signed_by(side, s->v), signed_by(side, s->disc), 0};
 
-    view.drive = slip_q27_drive(f, view.disc, &s->is_saturated);
+    view.drive = slip_q27_drive(f, view.disc, work->is_fine ? NULL : &s->is_saturated);
     return view;
 }
 
-static BASE_NOINLINE int32_t increment(struct step_q27 *s, const struct step_q27_coeffs *c,
-                                       const struct slip_q27_factors *f, const struct slip_q27_view *view, int32_t x, int32_t v, int32_t p)
+static BASE_NOINLINE int32_t increment_wide(const struct work *work, const struct slip_q27_factors *f,
+                                            const struct slip_q27_view *view, int32_t x, int32_t v, int32_t p)
 {
-    return slip_q27_increment(f, view, slip_q27_pull(f, x, FACTOR_BITS), v, p, c->has_floor, FACTOR_BITS, &s->is_saturated);
+    return slip_q27_increment(f, view, slip_q27_pull(f, x, SLIP_Q27_WIDE), v, p, work->c->has_floor, SLIP_Q27_WIDE,
+                              &work->s->is_saturated);
 }
 
-static BASE_NOINLINE void slip(struct step_q27 *s, const struct step_q27_coeffs *c, const struct slip_q27_factors *f,
-                 const struct slip_q27_view *view, const struct normal_q27_piece *piece, struct slip_q27_end *end)
+static int32_t increment(const struct work *work, const struct slip_q27_factors *f, const struct slip_q27_view *view,
+                         int32_t x, int32_t v, int32_t p)
 {
-    slip_q27_go(f, view, piece, end, c->has_floor, FACTOR_BITS, &s->is_saturated);
+    if (!work->is_fine) {
+        return increment_wide(work, f, view, x, v, p);
+    }
+    return slip_q27_increment(f, view, slip_q27_pull(f, x, SLIP_Q27_FINE), v, p, work->c->has_floor, SLIP_Q27_FINE,
+                              NULL);
+}
+
+static BASE_NOINLINE void slip_wide(const struct work *work, const struct slip_q27_factors *f,
+                                    const struct slip_q27_view *view, const struct normal_q27_piece *piece,
+                                    struct slip_q27_end *end)
+{
+    slip_q27_go(f, view, piece, end, work->c->has_floor, SLIP_Q27_WIDE, &work->s->is_saturated);
+}
+
+/* From here to a place on the stretch. */
+static void slip(const struct work *work, const struct slip_q27_factors *f, const struct slip_q27_view *view,
+                 int32_t place, struct slip_q27_end *end)
+{
+    const int32_t at = work->stretch.at;
+    const int32_t middle = force_at(work, at + (place - at) / 2);
+    const struct normal_q27_piece piece = {force_at(work, at), middle, middle, force_at(work, place), 0, 0};
+
+    if (!work->is_fine) {
+        slip_wide(work, f, view, &piece, end);
+    } else if (work->c->has_floor) {
+        slip_q27_go(f, view, &piece, end, true, SLIP_Q27_FINE, NULL);
+    } else {
+        slip_q27_go(f, view, &piece, end, false, SLIP_Q27_FINE, NULL);
+    }
 }
 
 /* At vr = 0 the pad sticks if friction can hold it; otherwise it slips to the side that the need pulls it to. The same
@@ -71,7 +151,7 @@ void event_q27_set_speed(struct step_q27 *s, const struct step_q27_coeffs *c, in
     const int64_t change = (int64_t)speed - s->disc;
 
     s->disc = speed;
-    if (s->mode == PLANT_STICK && regime_at_rest(s, c, change * (1 << FACTOR_BITS)) == PLANT_STICK) {
+    if (s->mode == PLANT_STICK && regime_at_rest(s, c, change * (1 << SLIP_Q27_WIDE)) == PLANT_STICK) {
         s->v = speed;
         return;
     }
@@ -82,36 +162,10 @@ void event_q27_set_speed(struct step_q27 *s, const struct step_q27_coeffs *c, in
     }
 }
 
-/* Books a piece that has been gone through. */
-static void advance(struct step_q27 *s, struct event_q27_progress *progress, const struct normal_q27_piece *piece,
-                    int32_t fraction)
-{
-    if (s->mode == PLANT_STICK) {
-        progress->stick += (uint32_t)fraction;
-    } else if (s->mode == PLANT_SLIP_MINUS) {
-        progress->slip_minus += (uint32_t)fraction;
-    }
-    normal_q27_move(&s->normal, piece);
-    progress->rest -= fraction;
-    progress->is_whole = false;
-}
-
-static int32_t look(struct step_q27 *s, const struct step_q27_coeffs *c, int32_t place, int32_t fraction,
-                    struct normal_q27_piece *piece)
-{
-    const int32_t part = fixed_part(place, fraction);
-
-    if (part > 0) {
-        normal_q27_look(&s->normal, &c->normal, part, false, piece, &s->is_saturated);
-    }
-    return part;
-}
-
-/* Looks for vr = 0 in a slip piece, also for a dip below 0 and back. Returns the place in (0, 1], 0 for "at the start",
- * or NOT_HERE. */
-static int32_t find_crossing(struct step_q27 *s, const struct step_q27_coeffs *c, const struct slip_q27_factors *f,
-                             const struct slip_q27_view *view, const struct normal_q27_piece *piece,
-                             const struct slip_q27_end *end)
+/* Looks for vr = 0 in a slip piece that reaches to the end of the stretch, also for a dip below 0 and back. Returns its
+ * place on the piece in (0, 1], 0 for "at the start", or NOT_HERE. */
+static int32_t find_crossing(const struct work *work, const struct slip_q27_factors *f,
+                             const struct slip_q27_view *view, const struct slip_q27_end *end)
 {
     const int64_t f0 = (int64_t)view->disc - view->v;
     const int64_t f1 = (int64_t)view->disc - end->v;
@@ -124,7 +178,7 @@ static int32_t find_crossing(struct step_q27 *s, const struct step_q27_coeffs *c
     if (f1 >= 0 && (d0 >= 0 || f0 + d0 > 0 || f0 <= 0)) {
         return NOT_HERE;
     }
-    d1 = -(int64_t)increment(s, c, f, view, end->x, end->v, normal_q27_force(&s->normal, piece->y));
+    d1 = -(int64_t)increment(work, f, view, end->x, end->v, force_at(work, ONE));
     vr = hermite_q27_make(f0, d0, f1, d1);
     if (f1 >= 0) {
         if (d1 <= 0) {
@@ -141,183 +195,217 @@ static int32_t find_crossing(struct step_q27 *s, const struct step_q27_coeffs *c
     return hermite_q27_root(&vr, upper);
 }
 
-static void slip_piece(struct step_q27 *s, const struct step_q27_coeffs *c, struct event_q27_progress *progress,
-                       struct normal_q27_piece *piece, int32_t fraction, const struct slip_q27_end *known)
+/* Slips on to the end of the stretch or to vr = 0. known is the end of a piece that is a whole step, NULL if it has not
+ * been computed. */
+static void slip_piece(struct work *work, const struct slip_q27_end *known)
 {
+    struct step_q27 *s = work->s;
     const int8_t side = s->mode;
     struct slip_q27_factors part;
-    const struct slip_q27_factors *factors = take_part(c, fraction, &part);
-    struct slip_q27_view view = view_from(s, factors, side);
+    const struct slip_q27_factors *factors = take_part(work, fraction_to(work, ONE), &part);
+    struct slip_q27_view view = view_from(work, factors, side);
     struct slip_q27_end end;
     int32_t place;
 
     if (known != NULL) {
         end = *known;
     } else {
-        slip(s, c, factors, &view, piece, &end);
+        slip(work, factors, &view, ONE, &end);
     }
-    place = find_crossing(s, c, factors, &view, piece, &end);
-    if (place != NOT_HERE && progress->events == PLANT_EVENTS_MAX) {
-        progress->is_capped = true;
+    place = find_crossing(work, factors, &view, &end);
+    if (place != NOT_HERE && work->progress->events == PLANT_EVENTS_MAX) {
+        work->progress->is_capped = true;
         place = NOT_HERE;
     }
     if (place == NOT_HERE) {
-        advance(s, progress, piece, fraction);
+        move_to(work, ONE);
         s->x = signed_by(side, end.x);
         s->v = signed_by(side, end.v);
         return;
     }
-    progress->events++;
-    fraction = look(s, c, place, fraction, piece);
-    if (fraction > 0) {
-        factors = take_part(c, fraction, &part);
-        view = view_from(s, factors, side);
-        slip(s, c, factors, &view, piece, &end);
-        advance(s, progress, piece, fraction);
+    work->progress->events++;
+    place = place_within(work, place);
+    if (place > work->stretch.at) {
+        factors = take_part(work, fraction_to(work, place), &part);
+        view = view_from(work, factors, side);
+        slip(work, factors, &view, place, &end);
+        move_to(work, place);
         s->x = signed_by(side, end.x);
     }
     s->v = s->disc;
-    s->mode = regime_at_rest(s, c, 0);
+    s->mode = regime_at_rest(s, work->c, 0);
 }
 
-/* Change of the contact force over the piece at the rate w: 0 where the force is held at 0. */
-static int32_t force_change(const struct step_q27 *s, const struct step_q27_coeffs *c, int32_t y, int32_t w,
-                            int32_t fraction)
+static int32_t carried(const struct work *work, int32_t place)
 {
-    if (normal_q27_force(&s->normal, y) != y) {
+    return fixed_product(fixed_part(work->c->wide.travel, fraction_to(work, place)), work->s->disc, 32u);
+}
+
+/* Change of h mu P along the rest of the stretch, as it goes at a place of it: 0 where the force is held at 0. */
+static int64_t limit_change(const struct work *work, int32_t place)
+{
+    const struct normal_q27_arc *arc = &work->stretch.arc;
+    const int32_t y = normal_q27_arc_y(arc, place);
+
+    if (normal_q27_force(&work->s->normal, y) != y) {
         return 0;
     }
-    return fixed_product(fixed_part(c->normal.step, fraction), w, 32u);
+    return (int64_t)work->c->wide.friction *
+           fixed_part(normal_q27_arc_slope(arc, place), ONE - work->stretch.at);
 }
 
-/* Where in a stick piece friction can no longer hold the pad. */
-static int32_t find_exit(const struct step_q27 *s, const struct step_q27_coeffs *c,
-                         const struct normal_q27_piece *piece, int32_t fraction, int8_t side, int32_t travel,
-                         int64_t spare_end)
+/* Where on the rest of the stretch friction can no longer hold the pad; what it can spare at the end is negative. */
+static int32_t find_exit(const struct work *work, int8_t side, int32_t travel, int64_t spare_end)
 {
     enum { UNIT_BITS = 4 }; /* taken off so that the cubic's coefficients fit */
-    const int64_t need_start = event_q27_need(c, s->x, s->disc);
-    const int64_t spare_start = (int64_t)c->wide.friction * piece->p1 - (side < 0 ? -need_start : need_start);
-    const int64_t pull = -(int64_t)c->wide.spring * signed_by(side, travel);
-    const int64_t rise_start =
-        (int64_t)c->wide.friction * force_change(s, c, s->normal.y, s->normal.w, fraction) - pull;
-    const int64_t rise_end = (int64_t)c->wide.friction * force_change(s, c, piece->y, piece->w, fraction) - pull;
-    struct hermite_q27 spare;
+    const struct step_q27_coeffs *c = work->c;
+    const int64_t need = event_q27_need(c, work->s->x, work->s->disc);
+    const int64_t spare = (int64_t)c->wide.friction * force_at(work, work->stretch.at) - (side < 0 ? -need : need);
+    const int64_t pull = (int64_t)c->wide.spring * signed_by(side, travel);
+    const int64_t rise_start = limit_change(work, work->stretch.at) + pull;
+    const int64_t rise_end = limit_change(work, ONE) + pull;
+    struct hermite_q27 cubic;
 
-    if (spare_start <= 0) {
+    if (spare <= 0) {
         return 0;
     }
-    spare = hermite_q27_make(fixed_shift_right(spare_start, UNIT_BITS), fixed_shift_right(rise_start, UNIT_BITS),
-                             fixed_shift_right(spare_end, UNIT_BITS), fixed_shift_right(rise_end, UNIT_BITS));
-    return hermite_q27_root(&spare, HERMITE_Q27_ONE);
+    cubic = hermite_q27_make(fixed_floor(spare, UNIT_BITS), fixed_floor(rise_start, UNIT_BITS),
+                             fixed_floor(spare_end, UNIT_BITS), fixed_floor(rise_end, UNIT_BITS));
+    return hermite_q27_root(&cubic, HERMITE_Q27_ONE);
 }
 
-static int32_t carried(const struct step_q27_coeffs *c, int32_t disc, int32_t fraction)
+/* Is carried on to the end of the stretch or to where the springs win. */
+static void stick_piece(struct work *work)
 {
-    return fixed_product(fixed_part(c->wide.travel, fraction), disc, 32u);
-}
-
-static void stick_piece(struct step_q27 *s, const struct step_q27_coeffs *c, struct event_q27_progress *progress,
-                        struct normal_q27_piece *piece, int32_t fraction)
-{
-    const int32_t travel = carried(c, s->disc, fraction);
+    struct step_q27 *s = work->s;
+    const int32_t travel = carried(work, ONE);
     const int32_t x_end = fixed_saturate_and_tell((int64_t)s->x + travel, &s->is_saturated);
-    const int64_t need_end = event_q27_need(c, x_end, s->disc);
+    const int64_t need_end = event_q27_need(work->c, x_end, s->disc);
     const int8_t side = need_end > 0 ? PLANT_SLIP_PLUS : PLANT_SLIP_MINUS;
-    const int64_t spare_end = (int64_t)c->wide.friction * normal_q27_force(&s->normal, piece->y) -
-                              (side < 0 ? -need_end : need_end);
+    const int64_t spare_end =
+        (int64_t)work->c->wide.friction * force_at(work, ONE) - (side < 0 ? -need_end : need_end);
+    int32_t place;
 
-    if (spare_end >= 0 || progress->events == PLANT_EVENTS_MAX) {
-        progress->is_capped = progress->is_capped || spare_end < 0;
-        advance(s, progress, piece, fraction);
+    if (spare_end >= 0 || work->progress->events == PLANT_EVENTS_MAX) {
+        work->progress->is_capped = work->progress->is_capped || spare_end < 0;
+        move_to(work, ONE);
         s->x = x_end;
         return;
     }
-    progress->events++;
-    fraction = look(s, c, find_exit(s, c, piece, fraction, side, travel, spare_end), fraction, piece);
-    if (fraction > 0) {
-        s->x = fixed_saturate_and_tell((int64_t)s->x + carried(c, s->disc, fraction), &s->is_saturated);
-        advance(s, progress, piece, fraction);
+    work->progress->events++;
+    place = place_within(work, find_exit(work, side, travel, spare_end));
+    if (place > work->stretch.at) {
+        s->x = fixed_saturate_and_tell((int64_t)s->x + carried(work, place), &s->is_saturated);
+        move_to(work, place);
     }
     s->mode = side;
 }
 
-/* Where the spring lets go or takes hold (contact lift) the piece ends there. Returns its share of the step. */
-static int32_t cut_at_contact(struct step_q27 *s, const struct step_q27_coeffs *c,
-                              const struct event_q27_progress *progress, struct normal_q27_piece *piece, bool *changes)
-{
-    const struct normal_q27 *normal = &s->normal;
-    const int8_t sign = normal->is_lifted ? -1 : 1;
-    const int32_t t = fixed_part(c->normal.step, progress->rest);
-    struct hermite_q27 gap;
-    int32_t place = 0;
+/* --- Contact -------------------------------------------------------------------------------------------------------- */
 
-    *changes = false;
-    if (c->normal.contact != CONTACT_LIFT || normal->is_steady_from_rest || signed_by(sign, piece->y) >= 0 ||
-        progress->contacts == PLANT_CONTACTS_MAX) {
-        return progress->rest;
+/* Where on a stretch that starts here the spring lets go or takes hold (contact lift), or NOT_HERE. */
+static int32_t find_contact_change(const struct work *work, const struct normal_q27_piece *piece)
+{
+    const struct normal_q27 *normal = &work->s->normal;
+    const int8_t sign = normal->is_lifted ? -1 : 1;
+    struct hermite_q27 gap;
+
+    if (work->c->normal.contact != CONTACT_LIFT || normal->is_steady_from_rest || signed_by(sign, piece->y) >= 0 ||
+        work->progress->contacts == PLANT_CONTACTS_MAX) {
+        return NOT_HERE;
     }
-    *changes = true;
-    gap = hermite_q27_make(signed_by(sign, normal->y), signed_by(sign, fixed_product(t, normal->w, 32u)),
-                           signed_by(sign, piece->y), signed_by(sign, fixed_product(t, piece->w, 32u)));
+    gap = hermite_q27_make(signed_by(sign, normal->y), signed_by(sign, work->stretch.arc.slope),
+                           signed_by(sign, piece->y), signed_by(sign, normal_q27_arc_slope(&work->stretch.arc, ONE)));
     if (signed_by(sign, normal->y) > 0) {
-        place = hermite_q27_root(&gap, HERMITE_Q27_ONE);
-    } else if (signed_by(sign, normal->w) > 0) {
-        place = hermite_q27_root_after_start(&gap);
+        return hermite_q27_root(&gap, HERMITE_Q27_ONE);
     }
-    return look(s, c, place, progress->rest, piece);
+    return signed_by(sign, normal->w) > 0 ? hermite_q27_root_after_start(&gap) : 0;
 }
 
-static void change_contact(struct step_q27 *s, const struct step_q27_coeffs *c, struct event_q27_progress *progress)
+/* Opens a stretch over the rest of the step, or up to the next change of contact. Returns true if it ends with one. */
+static bool open_stretch(struct work *work, int32_t rest, struct normal_q27_piece *piece)
 {
-    progress->contacts++;
+    struct stretch *stretch = &work->stretch;
+    struct step_q27 *s = work->s;
+    const struct normal_q27_coeffs *coeffs = &work->c->normal;
+    int32_t place;
+
+    stretch->at = 0;
+    stretch->fraction = rest;
+    normal_q27_arc_make(&stretch->arc, &s->normal, coeffs, rest, piece);
+    place = find_contact_change(work, piece);
+    if (place == NOT_HERE) {
+        return false;
+    }
+    stretch->fraction = fixed_part(rest, place);
+    if (stretch->fraction > 0) {
+        normal_q27_look_part(&s->normal, coeffs, stretch->fraction, piece, &s->is_saturated);
+    } else {
+        piece->y = s->normal.y;
+        piece->w = s->normal.w;
+    }
+    normal_q27_arc_make(&stretch->arc, &s->normal, coeffs, stretch->fraction, piece);
+    return true;
+}
+
+static void change_contact(struct work *work)
+{
+    struct step_q27 *s = work->s;
+
+    work->progress->contacts++;
     normal_q27_change_contact(&s->normal);
     if (s->normal.is_lifted && s->mode == PLANT_STICK) {
-        s->mode = regime_at_rest(s, c, 0);
+        s->mode = regime_at_rest(s, work->c, 0);
     }
 }
+
+/* --- The step ------------------------------------------------------------------------------------------------------- */
 
 void event_q27_step(struct step_q27 *s, const struct step_q27_coeffs *c, struct event_q27_progress *progress,
                     const struct event_q27_attempt *attempt)
 {
-    while (progress->rest > REST_LEAST) {
-        const unsigned events = progress->events;
-        const struct slip_q27_end *known = NULL;
-        struct normal_q27_piece piece;
-        int32_t fraction;
-        bool contact_changes;
+    struct work work = {.s = s, .c = c, .progress = progress, .is_fine = attempt != NULL};
+    const struct slip_q27_end *known = attempt != NULL ? &attempt->end : NULL;
+    struct normal_q27_piece piece;
+    int32_t rest = ONE;
+    bool contact_changes;
 
-        if (attempt != NULL && progress->is_whole) {
-            piece = attempt->piece;
-            known = &attempt->end;
-        } else {
-            normal_q27_look(&s->normal, &c->normal, progress->rest, progress->is_whole, &piece, &s->is_saturated);
-        }
-        fraction = cut_at_contact(s, c, progress, &piece, &contact_changes);
-        if (fraction > 0) {
-            if (s->mode == PLANT_STICK) {
-                stick_piece(s, c, progress, &piece, fraction);
-            } else {
-                slip_piece(s, c, progress, &piece, fraction, contact_changes ? NULL : known);
-            }
-        }
-        if (contact_changes && progress->events == events) {
-            change_contact(s, c, progress);
-        }
-        progress->is_lifted = progress->is_lifted || s->normal.y < 0;
+    if (attempt != NULL) {
+        piece = attempt->piece;
+    } else {
+        normal_q27_look(&s->normal, &c->normal, &piece, &s->is_saturated);
     }
+    do {
+        contact_changes = open_stretch(&work, rest, &piece);
+        known = contact_changes ? NULL : known;
+        while (fraction_to(&work, ONE) > REST_LEAST) {
+            if (s->mode == PLANT_STICK) {
+                stick_piece(&work);
+            } else {
+                slip_piece(&work, known);
+            }
+            known = NULL;
+        }
+        normal_q27_move(&s->normal, &piece);
+        rest -= work.stretch.fraction;
+        if (contact_changes) {
+            change_contact(&work);
+            normal_q27_look_part(&s->normal, &c->normal, rest, &piece, &s->is_saturated);
+        }
+    } while (contact_changes && rest > REST_LEAST);
 }
 
 /* The sign of vr afresh at every stage, 0 at vr = 0, and no stick. */
 static int32_t naive_increment(struct step_q27 *s, const struct step_q27_coeffs *c, int32_t x, int32_t v, int32_t p)
 {
     const int8_t side = (int8_t)((s->disc > v) - (s->disc < v));
-    const struct slip_q27_view view = view_from(s, &c->wide, side);
+    const struct work work = {.s = s, .c = c};
+    const struct slip_q27_view view = view_from(&work, &c->wide, side);
 
     if (side == 0) {
-        return fixed_saturate_and_tell(-fixed_shift_right(event_q27_need(c, x, v), FACTOR_BITS), &s->is_saturated);
+        return fixed_saturate_and_tell(-fixed_shift_right(event_q27_need(c, x, v), SLIP_Q27_WIDE), &s->is_saturated);
     }
-    return signed_by(side, increment(s, c, &c->wide, &view, signed_by(side, x), signed_by(side, v), p));
+    return signed_by(side, increment_wide(&work, &c->wide, &view, signed_by(side, x), signed_by(side, v), p));
 }
 
 void event_q27_naive_step(struct step_q27 *s, const struct step_q27_coeffs *c, struct event_q27_progress *progress)
@@ -327,7 +415,7 @@ void event_q27_naive_step(struct step_q27 *s, const struct step_q27_coeffs *c, s
     struct normal_q27_piece piece;
     int32_t a1, a2, a3, a4, v2, v3, v4;
 
-    normal_q27_look(&s->normal, &c->normal, progress->rest, true, &piece, tell);
+    normal_q27_look(&s->normal, &c->normal, &piece, tell);
     a1 = naive_increment(s, c, s->x, s->v, piece.p1);
     v2 = fixed_saturate_and_tell(s->v + fixed_shift_right(a1, 1u), tell);
     a2 = naive_increment(s, c, fixed_saturate_and_tell((int64_t)s->x + fixed_product(travel / 2, s->v, 32u), tell), v2,
@@ -347,7 +435,9 @@ void event_q27_naive_step(struct step_q27 *s, const struct step_q27_coeffs *c, s
         s->v = fixed_saturate_and_tell(s->v + fixed_shift_right(gain, 32u), tell);
     }
     s->mode = (int8_t)((s->disc > s->v) - (s->disc < s->v));
-    advance(s, progress, &piece, progress->rest);
+    progress->slip_minus = s->mode == PLANT_SLIP_MINUS ? PLANT_SHARE_ONE : 0u;
+    progress->stick = s->mode == PLANT_STICK ? PLANT_SHARE_ONE : 0u;
+    normal_q27_move(&s->normal, &piece);
     progress->is_lifted = s->normal.y < 0;
     if (c->normal.contact == CONTACT_LIFT && !s->normal.is_steady_from_rest) {
         s->normal.is_lifted = s->normal.y < 0;

@@ -5,10 +5,8 @@
 
 #include "model/step_q27.h"
 
-/* What is left of the step, and what of it is to be reported, in fractions of it (Q30). */
+/* What of the step is to be reported, in fractions of it (Q30). */
 struct event_q27_progress {
-    int32_t rest;
-    bool is_whole; /* nothing was cut off yet */
     uint32_t stick, slip_minus;
     unsigned events, contacts;
     bool is_capped, is_lifted;
@@ -21,7 +19,7 @@ struct event_q27_attempt {
     struct slip_q27_end end;
 };
 
-/* attempt may be NULL. */
+/* Without an attempt the step saturates where it must; with one it is known to stay within the fine arithmetic. */
 void event_q27_step(struct step_q27 *s, const struct step_q27_coeffs *c, struct event_q27_progress *progress,
                     const struct event_q27_attempt *attempt);
 

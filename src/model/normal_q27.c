@@ -124,52 +124,90 @@ void normal_q27_set_load(struct normal_q27 *normal, const struct normal_q27_coef
 /* Part of a step in closed form: a Taylor series over t (Q32), below 2^-29 where its terms end. With e_k = t^(k-1) y^(k)
  * each term is a velocity and undercuts those before it: |e_k| <= 0.40 |e_(k-1)| + 0.16 |e_(k-2)|. MODEL.md has the bounds
  * that follow: no e_k leaves 32 bits, nor does a sum but the last ones. */
-static void look_part(const struct normal_q27 *normal, const struct normal_q27_coeffs *coeffs, int32_t t,
-                      int32_t damping_t, struct normal_q27_piece *piece, bool *is_saturated)
+static void look_series(const struct normal_q27 *normal, const struct normal_q27_coeffs *coeffs, int32_t t,
+                        int32_t damping_t, struct normal_q27_piece *piece, bool *is_saturated)
 {
     const int32_t t2 = normal->is_lifted ? 0 : (int32_t)fixed_round_up((int64_t)t * t, 32u);
     const int64_t pull = (int64_t)normal->n - (normal->is_lifted ? 0 : normal->y);
     const unsigned terms = coeffs->terms;
     int32_t e[TERMS_MAX + 1];
-    int32_t velocity, travel, half_travel;
-    int64_t middle, end;
+    int32_t velocity, travel;
+    int64_t mean;
 
     e[1] = normal->w;
     e[2] = (int32_t)fixed_round_up(t * pull - (int64_t)damping_t * e[1], 32u);
     for (unsigned k = 3u; k <= terms; k++) {
         e[k] = -(int32_t)fixed_round_up((int64_t)damping_t * e[k - 1u] + (int64_t)t2 * e[k - 2u], 32u);
     }
-    velocity = travel = half_travel = e[terms];
+    velocity = travel = e[terms];
     for (unsigned k = terms - 1u; k >= 3u; k--) {
-        velocity = e[k] + (int32_t)fixed_round_up((int64_t)velocity * reciprocal[k], RECIPROCAL_BITS);
-        travel = e[k] + (int32_t)fixed_round_up((int64_t)travel * reciprocal[k + 1u], RECIPROCAL_BITS);
-        half_travel = e[k] + (int32_t)fixed_round_up((int64_t)half_travel * reciprocal[k + 1u], RECIPROCAL_BITS + 1u);
+        velocity = e[k] + fixed_part(velocity, reciprocal[k]);
+        travel = e[k] + fixed_part(travel, reciprocal[k + 1u]);
     }
-    /* The last two terms: y + t (e_1 + (e_2 + travel/3)/2), and at t/2. */
-    end = e[1] + fixed_round_up(e[2] + fixed_round_up((int64_t)travel * reciprocal[3], RECIPROCAL_BITS), 1u);
-    middle = e[1] + fixed_round_up(e[2] + fixed_round_up((int64_t)half_travel * reciprocal[3], RECIPROCAL_BITS + 1u), 2u);
-    piece->y = fixed_saturate_and_tell(normal->y + fixed_round_up(t * end, 32u), is_saturated);
+    mean = e[1] + fixed_round_up((int64_t)e[2] + fixed_part(travel, reciprocal[3]), 1u);
+    piece->y = fixed_saturate_and_tell(normal->y + fixed_round_up(t * mean, 32u), is_saturated);
     piece->w = fixed_saturate_and_tell((int64_t)e[1] + e[2] + fixed_round_up(velocity, 1u), is_saturated);
-    piece->p1 = normal_q27_force(normal, normal->y);
-    piece->p2 = normal_q27_force(
-        normal, fixed_saturate_and_tell(normal->y + fixed_round_up(t * middle, 33u), is_saturated));
-    piece->p3 = piece->p2;
-    piece->p4 = normal_q27_force(normal, piece->y);
 }
 
-void normal_q27_look(const struct normal_q27 *normal, const struct normal_q27_coeffs *coeffs, int32_t fraction,
-                     bool is_whole, struct normal_q27_piece *piece, bool *is_saturated)
+void normal_q27_look_part(const struct normal_q27 *normal, const struct normal_q27_coeffs *coeffs, int32_t fraction,
+                          struct normal_q27_piece *piece, bool *is_saturated)
 {
-    const int32_t t = is_whole ? coeffs->step : fixed_part(coeffs->step, fraction);
-    const int32_t damping_t = is_whole ? coeffs->damping : fixed_part(coeffs->damping, fraction);
+    const int32_t t = fixed_part(coeffs->step, fraction);
+    const int32_t damping_t = fixed_part(coeffs->damping, fraction);
+
+    if (coeffs->is_exact) {
+        look_series(normal, coeffs, t, damping_t, piece, is_saturated);
+    } else {
+        normal_q27_look_rk4(normal, coeffs->sixth, t, damping_t, piece, is_saturated);
+    }
+}
+
+void normal_q27_look(const struct normal_q27 *normal, const struct normal_q27_coeffs *coeffs,
+                     struct normal_q27_piece *piece, bool *is_saturated)
+{
+    struct normal_q27_arc arc;
 
     if (!coeffs->is_exact) {
-        normal_q27_look_rk4(normal, coeffs->sixth, t, damping_t, piece, is_saturated);
-    } else if (is_whole && !normal->is_lifted) {
+        normal_q27_look_rk4(normal, coeffs->sixth, coeffs->step, coeffs->damping, piece, is_saturated);
+    } else if (!normal->is_lifted) {
         normal_q27_look_map(normal, coeffs, piece, is_saturated);
     } else {
-        look_part(normal, coeffs, t, damping_t, piece, is_saturated);
+        look_series(normal, coeffs, coeffs->step, coeffs->damping, piece, is_saturated);
+        normal_q27_arc_make(&arc, normal, coeffs, NORMAL_Q27_WHOLE, piece);
+        piece->p1 = normal_q27_force(normal, normal->y);
+        piece->p2 = normal_q27_force(normal, normal_q27_arc_y(&arc, NORMAL_Q27_WHOLE / 2));
+        piece->p3 = piece->p2;
+        piece->p4 = normal_q27_force(normal, piece->y);
     }
+}
+
+void normal_q27_arc_make(struct normal_q27_arc *arc, const struct normal_q27 *normal,
+                         const struct normal_q27_coeffs *coeffs, int32_t fraction, const struct normal_q27_piece *piece)
+{
+    const int32_t t = fixed_part(coeffs->step, fraction);
+    const int32_t slope0 = (int32_t)fixed_round_up((int64_t)t * normal->w, 32u);
+    const int32_t slope1 = (int32_t)fixed_round_up((int64_t)t * piece->w, 32u);
+    const int64_t rise = (int64_t)piece->y - normal->y;
+
+    arc->y = normal->y;
+    arc->slope = slope0;
+    arc->square = fixed_saturate(3 * rise - 2 * (int64_t)slope0 - slope1);
+    arc->cube = fixed_saturate((int64_t)slope0 + slope1 - 2 * rise);
+}
+
+int32_t normal_q27_arc_y(const struct normal_q27_arc *arc, int32_t t)
+{
+    const int32_t bend = fixed_saturate((int64_t)arc->square + fixed_part(arc->cube, t));
+    const int32_t slope = fixed_saturate((int64_t)arc->slope + fixed_part(bend, t));
+
+    return fixed_saturate((int64_t)arc->y + fixed_part(slope, t));
+}
+
+int32_t normal_q27_arc_slope(const struct normal_q27_arc *arc, int32_t t)
+{
+    const int32_t bend = fixed_saturate(2 * (int64_t)arc->square + 3 * (int64_t)fixed_part(arc->cube, t));
+
+    return fixed_saturate((int64_t)arc->slope + fixed_part(bend, t));
 }
 
 void normal_q27_change_contact(struct normal_q27 *normal)

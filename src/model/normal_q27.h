@@ -54,6 +54,12 @@ struct normal_q27_piece {
     int32_t y, w;
 };
 
+/* y between two instants as the cubic through displacement and velocity at both; t in Q30 from 0 to 1. Friction does not
+ * act on y, so a step with switches of friction needs y no more often than any other: it reads it off here. */
+struct normal_q27_arc {
+    int32_t y, slope, square, cube; /* y + t (slope + t (square + t cube)) */
+};
+
 void normal_q27_configure(struct normal_q27_coeffs *coeffs, const struct params *params, const struct scale *scale);
 
 /* 2 pi/spp in Q(bits), bits <= 39. */
@@ -70,10 +76,21 @@ void normal_q27_set_load(struct normal_q27 *normal, const struct normal_q27_coef
 /* The contact has changed: the pad is at y = 0. */
 void normal_q27_change_contact(struct normal_q27 *normal);
 
-/* Looks ahead over a fraction of the step without changing the state; is_whole says that it is a whole step from grid to
- * grid. */
-void normal_q27_look(const struct normal_q27 *normal, const struct normal_q27_coeffs *coeffs, int32_t fraction,
-                     bool is_whole, struct normal_q27_piece *piece, bool *is_saturated);
+/* Looks ahead over a whole step without changing the state. */
+void normal_q27_look(const struct normal_q27 *normal, const struct normal_q27_coeffs *coeffs,
+                     struct normal_q27_piece *piece, bool *is_saturated);
+
+/* Looks ahead over a fraction of the step; of the piece only y and w are set. */
+void normal_q27_look_part(const struct normal_q27 *normal, const struct normal_q27_coeffs *coeffs, int32_t fraction,
+                          struct normal_q27_piece *piece, bool *is_saturated);
+
+/* The way from the present state to the end of a piece that takes this fraction of the step. */
+void normal_q27_arc_make(struct normal_q27_arc *arc, const struct normal_q27 *normal,
+                         const struct normal_q27_coeffs *coeffs, int32_t fraction, const struct normal_q27_piece *piece);
+
+/* Displacement on the way, and its change by t. */
+int32_t normal_q27_arc_y(const struct normal_q27_arc *arc, int32_t t);
+int32_t normal_q27_arc_slope(const struct normal_q27_arc *arc, int32_t t);
 
 /* Moves to the end of a piece. */
 static inline void normal_q27_move(struct normal_q27 *normal, const struct normal_q27_piece *piece)

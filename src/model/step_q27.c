@@ -110,7 +110,7 @@ void step_q27_report(const struct step_q27 *state, struct plant_output *output)
 static BASE_NOINLINE void advance_in_pieces(struct step_q27 *s, const struct step_q27_coeffs *c,
                                             const struct event_q27_attempt *attempt, struct plant_output *output)
 {
-    struct event_q27_progress progress = {NORMAL_Q27_WHOLE, true, 0u, 0u, 0u, 0u, false, false};
+    struct event_q27_progress progress = {0u, 0u, 0u, 0u, false, false};
     bool is_gap_held;
 
     if (c->is_naive) {
