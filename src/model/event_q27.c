@@ -14,6 +14,7 @@ struct stretch {
     struct normal_q27_arc arc;
     int32_t fraction; /* of the step */
     int32_t at;       /* where the pad is */
+    int32_t y_end;
 };
 
 /* One step at work. */
@@ -27,10 +28,7 @@ struct work {
 
 static int32_t signed_by(int8_t sign, int32_t value) { return sign < 0 ? -value : value; }
 
-static int32_t force_at(const struct work *work, int32_t place)
-{
-    return normal_q27_force(&work->s->normal, normal_q27_arc_y(&work->stretch.arc, place));
-}
+static int32_t force_of(const struct work *work, int32_t y) { return normal_q27_force(&work->s->normal, y); }
 
 /* The way from here to a place on the stretch, as a fraction of the step. */
 static int32_t fraction_to(const struct work *work, int32_t place)
@@ -44,8 +42,8 @@ static int32_t place_within(const struct work *work, int32_t part)
     return work->stretch.at + fixed_part(part, ONE - work->stretch.at);
 }
 
-/* Books the way to a place and goes there. */
-static void move_to(struct work *work, int32_t place)
+/* Books the way to a place, where y is as given, and goes there. */
+static void move_to(struct work *work, int32_t place, int32_t y)
 {
     const uint32_t fraction = (uint32_t)fraction_to(work, place);
 
@@ -55,8 +53,8 @@ static void move_to(struct work *work, int32_t place)
         work->progress->slip_minus += fraction;
     }
     work->stretch.at = place;
-    work->s->normal.y = normal_q27_arc_y(&work->stretch.arc, place);
-    work->progress->is_lifted = work->progress->is_lifted || work->s->normal.y < 0;
+    work->s->normal.y = y;
+    work->progress->is_lifted = work->progress->is_lifted || y < 0;
 }
 
 /* The factors of a part of the step; the whole has them ready. */
@@ -119,13 +117,14 @@ static BASE_NOINLINE void slip_wide(const struct work *work, const struct slip_q
     slip_q27_go(f, view, piece, end, work->c->has_floor, SLIP_Q27_WIDE, &work->s->is_saturated);
 }
 
-/* From here to a place on the stretch. */
-static void slip(const struct work *work, const struct slip_q27_factors *f, const struct slip_q27_view *view,
-                 int32_t place, struct slip_q27_end *end)
+/* From here to a place on the stretch, where y is as given. */
+static BASE_NOINLINE void slip(const struct work *work, const struct slip_q27_factors *f,
+                               const struct slip_q27_view *view, int32_t place, int32_t y, struct slip_q27_end *end)
 {
     const int32_t at = work->stretch.at;
-    const int32_t middle = force_at(work, at + (place - at) / 2);
-    const struct normal_q27_piece piece = {force_at(work, at), middle, middle, force_at(work, place), 0, 0};
+    const int32_t middle = force_of(work, normal_q27_arc_y(&work->stretch.arc, at + (place - at) / 2));
+    const struct normal_q27_piece piece = {
+        .p1 = force_of(work, work->s->normal.y), .p2 = middle, .p3 = middle, .p4 = force_of(work, y)};
 
     if (!work->is_fine) {
         slip_wide(work, f, view, &piece, end);
@@ -178,7 +177,7 @@ static int32_t find_crossing(const struct work *work, const struct slip_q27_fact
     if (f1 >= 0 && (d0 >= 0 || f0 + d0 > 0 || f0 <= 0)) {
         return NOT_HERE;
     }
-    d1 = -(int64_t)increment(work, f, view, end->x, end->v, force_at(work, ONE));
+    d1 = -(int64_t)increment(work, f, view, end->x, end->v, force_of(work, work->stretch.y_end));
     vr = hermite_q27_make(f0, d0, f1, d1);
     if (f1 >= 0) {
         if (d1 <= 0) {
@@ -210,7 +209,7 @@ static void slip_piece(struct work *work, const struct slip_q27_end *known)
     if (known != NULL) {
         end = *known;
     } else {
-        slip(work, factors, &view, ONE, &end);
+        slip(work, factors, &view, ONE, work->stretch.y_end, &end);
     }
     place = find_crossing(work, factors, &view, &end);
     if (place != NOT_HERE && work->progress->events == PLANT_EVENTS_MAX) {
@@ -218,7 +217,7 @@ static void slip_piece(struct work *work, const struct slip_q27_end *known)
         place = NOT_HERE;
     }
     if (place == NOT_HERE) {
-        move_to(work, ONE);
+        move_to(work, ONE, work->stretch.y_end);
         s->x = signed_by(side, end.x);
         s->v = signed_by(side, end.v);
         return;
@@ -226,10 +225,12 @@ static void slip_piece(struct work *work, const struct slip_q27_end *known)
     work->progress->events++;
     place = place_within(work, place);
     if (place > work->stretch.at) {
+        const int32_t y = normal_q27_arc_y(&work->stretch.arc, place);
+
         factors = take_part(work, fraction_to(work, place), &part);
         view = view_from(work, factors, side);
-        slip(work, factors, &view, place, &end);
-        move_to(work, place);
+        slip(work, factors, &view, place, y, &end);
+        move_to(work, place, y);
         s->x = signed_by(side, end.x);
     }
     s->v = s->disc;
@@ -242,16 +243,13 @@ static int32_t carried(const struct work *work, int32_t place)
 }
 
 /* Change of h mu P along the rest of the stretch, as it goes at a place of it: 0 where the force is held at 0. */
-static int64_t limit_change(const struct work *work, int32_t place)
+static int64_t limit_change(const struct work *work, int32_t place, int32_t y)
 {
-    const struct normal_q27_arc *arc = &work->stretch.arc;
-    const int32_t y = normal_q27_arc_y(arc, place);
-
-    if (normal_q27_force(&work->s->normal, y) != y) {
+    if (force_of(work, y) != y) {
         return 0;
     }
     return (int64_t)work->c->wide.friction *
-           fixed_part(normal_q27_arc_slope(arc, place), ONE - work->stretch.at);
+           fixed_part(normal_q27_arc_slope(&work->stretch.arc, place), ONE - work->stretch.at);
 }
 
 /* Where on the rest of the stretch friction can no longer hold the pad; what it can spare at the end is negative. */
@@ -260,10 +258,10 @@ static int32_t find_exit(const struct work *work, int8_t side, int32_t travel, i
     enum { UNIT_BITS = 4 }; /* taken off so that the cubic's coefficients fit */
     const struct step_q27_coeffs *c = work->c;
     const int64_t need = event_q27_need(c, work->s->x, work->s->disc);
-    const int64_t spare = (int64_t)c->wide.friction * force_at(work, work->stretch.at) - (side < 0 ? -need : need);
+    const int64_t spare = (int64_t)c->wide.friction * force_of(work, work->s->normal.y) - (side < 0 ? -need : need);
     const int64_t pull = (int64_t)c->wide.spring * signed_by(side, travel);
-    const int64_t rise_start = limit_change(work, work->stretch.at) + pull;
-    const int64_t rise_end = limit_change(work, ONE) + pull;
+    const int64_t rise_start = limit_change(work, work->stretch.at, work->s->normal.y) + pull;
+    const int64_t rise_end = limit_change(work, ONE, work->stretch.y_end) + pull;
     struct hermite_q27 cubic;
 
     if (spare <= 0) {
@@ -283,12 +281,12 @@ static void stick_piece(struct work *work)
     const int64_t need_end = event_q27_need(work->c, x_end, s->disc);
     const int8_t side = need_end > 0 ? PLANT_SLIP_PLUS : PLANT_SLIP_MINUS;
     const int64_t spare_end =
-        (int64_t)work->c->wide.friction * force_at(work, ONE) - (side < 0 ? -need_end : need_end);
+        (int64_t)work->c->wide.friction * force_of(work, work->stretch.y_end) - (side < 0 ? -need_end : need_end);
     int32_t place;
 
     if (spare_end >= 0 || work->progress->events == PLANT_EVENTS_MAX) {
         work->progress->is_capped = work->progress->is_capped || spare_end < 0;
-        move_to(work, ONE);
+        move_to(work, ONE, work->stretch.y_end);
         s->x = x_end;
         return;
     }
@@ -296,7 +294,7 @@ static void stick_piece(struct work *work)
     place = place_within(work, find_exit(work, side, travel, spare_end));
     if (place > work->stretch.at) {
         s->x = fixed_saturate_and_tell((int64_t)s->x + carried(work, place), &s->is_saturated);
-        move_to(work, place);
+        move_to(work, place, normal_q27_arc_y(&work->stretch.arc, place));
     }
     s->mode = side;
 }
@@ -332,6 +330,7 @@ static bool open_stretch(struct work *work, int32_t rest, struct normal_q27_piec
 
     stretch->at = 0;
     stretch->fraction = rest;
+    stretch->y_end = piece->y;
     normal_q27_arc_make(&stretch->arc, &s->normal, coeffs, rest, piece);
     place = find_contact_change(work, piece);
     if (place == NOT_HERE) {
@@ -344,6 +343,7 @@ static bool open_stretch(struct work *work, int32_t rest, struct normal_q27_piec
         piece->y = s->normal.y;
         piece->w = s->normal.w;
     }
+    stretch->y_end = piece->y;
     normal_q27_arc_make(&stretch->arc, &s->normal, coeffs, stretch->fraction, piece);
     return true;
 }

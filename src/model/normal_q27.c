@@ -191,23 +191,8 @@ void normal_q27_arc_make(struct normal_q27_arc *arc, const struct normal_q27 *no
 
     arc->y = normal->y;
     arc->slope = slope0;
-    arc->square = fixed_saturate(3 * rise - 2 * (int64_t)slope0 - slope1);
-    arc->cube = fixed_saturate((int64_t)slope0 + slope1 - 2 * rise);
-}
-
-int32_t normal_q27_arc_y(const struct normal_q27_arc *arc, int32_t t)
-{
-    const int32_t bend = fixed_saturate((int64_t)arc->square + fixed_part(arc->cube, t));
-    const int32_t slope = fixed_saturate((int64_t)arc->slope + fixed_part(bend, t));
-
-    return fixed_saturate((int64_t)arc->y + fixed_part(slope, t));
-}
-
-int32_t normal_q27_arc_slope(const struct normal_q27_arc *arc, int32_t t)
-{
-    const int32_t bend = fixed_saturate(2 * (int64_t)arc->square + 3 * (int64_t)fixed_part(arc->cube, t));
-
-    return fixed_saturate((int64_t)arc->slope + fixed_part(bend, t));
+    arc->square = (int32_t)(3 * rise - 2 * (int64_t)slope0 - slope1);
+    arc->cube = (int32_t)((int64_t)slope0 + slope1 - 2 * rise);
 }
 
 void normal_q27_change_contact(struct normal_q27 *normal)

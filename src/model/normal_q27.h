@@ -89,8 +89,17 @@ void normal_q27_arc_make(struct normal_q27_arc *arc, const struct normal_q27 *no
                          const struct normal_q27_coeffs *coeffs, int32_t fraction, const struct normal_q27_piece *piece);
 
 /* Displacement on the way, and its change by t. */
-int32_t normal_q27_arc_y(const struct normal_q27_arc *arc, int32_t t);
-int32_t normal_q27_arc_slope(const struct normal_q27_arc *arc, int32_t t);
+static inline int32_t normal_q27_arc_y(const struct normal_q27_arc *arc, int32_t t)
+{
+    const int32_t bend = arc->square + fixed_part(arc->cube, t);
+
+    return fixed_saturate((int64_t)arc->y + fixed_part(arc->slope + fixed_part(bend, t), t));
+}
+
+static inline int32_t normal_q27_arc_slope(const struct normal_q27_arc *arc, int32_t t)
+{
+    return arc->slope + fixed_part(2 * arc->square + 3 * fixed_part(arc->cube, t), t);
+}
 
 /* Moves to the end of a piece. */
 static inline void normal_q27_move(struct normal_q27 *normal, const struct normal_q27_piece *piece)
