@@ -364,14 +364,19 @@ static void change_contact(struct work *work)
 void event_q27_step(struct step_q27 *s, const struct step_q27_coeffs *c, struct event_q27_progress *progress,
                     const struct event_q27_attempt *attempt)
 {
-    struct work work = {.s = s, .c = c, .progress = progress, .is_fine = attempt != NULL};
-    const struct slip_q27_end *known = attempt != NULL ? &attempt->end : NULL;
+    struct work work;
+    const struct slip_q27_end *known = NULL;
     struct normal_q27_piece piece;
     int32_t rest = ONE;
     bool contact_changes;
 
+    work.s = s;
+    work.c = c;
+    work.progress = progress;
+    work.is_fine = attempt != NULL;
     if (attempt != NULL) {
         piece = attempt->piece;
+        known = &attempt->end;
     } else {
         normal_q27_look(&s->normal, &c->normal, &piece, &s->is_saturated);
     }

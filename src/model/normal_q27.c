@@ -170,7 +170,8 @@ void normal_q27_look(const struct normal_q27 *normal, const struct normal_q27_co
     if (!coeffs->is_exact) {
         normal_q27_look_rk4(normal, coeffs->sixth, coeffs->step, coeffs->damping, piece, is_saturated);
     } else if (!normal->is_lifted) {
-        normal_q27_look_map(normal, coeffs, piece, is_saturated);
+        normal_q27_look_end(normal, &coeffs->full, coeffs->has_phase, piece, is_saturated);
+        normal_q27_look_stages(normal, &coeffs->half, piece, is_saturated);
     } else {
         look_series(normal, coeffs, coeffs->step, coeffs->damping, piece, is_saturated);
         normal_q27_arc_make(&arc, normal, coeffs, NORMAL_Q27_WHOLE, piece);

@@ -182,21 +182,29 @@ BASE_INLINE void normal_q27_look_rk4(const struct normal_q27 *normal, int32_t si
     piece->p4 = normal_q27_force(normal, y4);
 }
 
-/* A whole step in contact by the prepared maps, or on the grid of the phase. */
-BASE_INLINE void normal_q27_look_map(const struct normal_q27 *normal, const struct normal_q27_coeffs *coeffs,
+/* The end of a whole step in contact by the prepared map, or on the grid of the phase. */
+BASE_INLINE void normal_q27_look_end(const struct normal_q27 *normal, const struct normal_q27_map *full, bool has_phase,
                                      struct normal_q27_piece *piece, bool *is_saturated)
 {
     const int32_t d = sum_q27_plain(normal->y, -normal->n, is_saturated);
     const int32_t w = normal->w;
-    const int32_t middle =
-        sum_q27(normal->y, (int64_t)coeffs->half.yy * d + (int64_t)coeffs->half.yw * w, 32u, is_saturated);
 
-    if (coeffs->has_phase) {
+    if (has_phase) {
         normal_q27_at(normal, &piece->y, &piece->w, is_saturated);
     } else {
-        piece->y = sum_q27(normal->y, (int64_t)coeffs->full.yy * d + (int64_t)coeffs->full.yw * w, 32u, is_saturated);
-        piece->w = sum_q27(w, (int64_t)coeffs->full.wy * d + (int64_t)coeffs->full.ww * w, 32u, is_saturated);
+        piece->y = sum_q27(normal->y, (int64_t)full->yy * d + (int64_t)full->yw * w, 32u, is_saturated);
+        piece->w = sum_q27(w, (int64_t)full->wy * d + (int64_t)full->ww * w, 32u, is_saturated);
     }
+}
+
+/* The forces of its stages. */
+BASE_INLINE void normal_q27_look_stages(const struct normal_q27 *normal, const struct normal_q27_map *half,
+                                        struct normal_q27_piece *piece, bool *is_saturated)
+{
+    const int32_t d = sum_q27_plain(normal->y, -normal->n, is_saturated);
+    const int32_t middle =
+        sum_q27(normal->y, (int64_t)half->yy * d + (int64_t)half->yw * normal->w, 32u, is_saturated);
+
     piece->p1 = normal_q27_force(normal, normal->y);
     piece->p2 = normal_q27_force(normal, middle);
     piece->p3 = piece->p2;

@@ -57,6 +57,7 @@ void step_q27_configure(struct step_q27_coeffs *coeffs, const struct params *par
     configure_factors(&coeffs->fine, scale, SLIP_Q27_FINE);
     coeffs->drag = fixed_saturate(-times_step(scale, scale->damping, SLIP_Q27_WIDE));
     coeffs->has_floor = scale->has_floor;
+    coeffs->is_plain = coeffs->normal.has_phase && !scale->has_floor;
     coeffs->is_naive = (int)params->tangential_method == METHOD_NAIVE;
     coeffs->reach_max = coeffs->is_naive ? 0 : fine_reach(scale);
     coeffs->stiffness = fixed_from_float(scale->stiffness, PLANT_FRACTION_BITS + (int)scale->length_shift);
@@ -170,7 +171,7 @@ BASE_INLINE void stick_whole(struct step_q27 *s, const struct step_q27_coeffs *c
 {
     const int32_t x = s->x + fixed_product(c->wide.travel, s->disc, 32u);
 
-    if (BASE_UNLIKELY(!event_q27_is_held(c, x, s->disc, piece->p4, 0))) {
+    if (BASE_UNLIKELY(!event_q27_is_held(c, x, s->disc, normal_q27_force(&s->normal, piece->y), 0))) {
         const struct event_q27_attempt attempt = {*piece, {0, 0, 0}};
 
         advance_in_pieces(s, c, &attempt, output);
@@ -183,29 +184,34 @@ BASE_INLINE void stick_whole(struct step_q27 *s, const struct step_q27_coeffs *c
     output->is_lifted = piece->y < 0;
 }
 
-BASE_INLINE void advance_tame(struct step_q27 *s, const struct step_q27_coeffs *c, bool is_exact,
-                              struct plant_output *output)
+BASE_INLINE void advance_tame(struct step_q27 *s, const struct step_q27_coeffs *c, bool is_exact, bool has_phase,
+                              bool has_floor, struct plant_output *output)
 {
     struct normal_q27_piece piece;
 
     if (is_exact) {
-        normal_q27_look_map(&s->normal, &c->normal, &piece, NULL);
+        normal_q27_look_end(&s->normal, &c->normal.full, has_phase, &piece, NULL);
     } else {
         normal_q27_look_rk4(&s->normal, c->normal.sixth, c->normal.step, c->normal.damping, &piece, NULL);
     }
     if (s->mode == PLANT_STICK) {
         stick_whole(s, c, &piece, output);
-    } else if (c->has_floor) {
-        slip_whole(s, c, &piece, true, output);
-    } else {
-        slip_whole(s, c, &piece, false, output);
+        return;
     }
+    if (is_exact) {
+        normal_q27_look_stages(&s->normal, &c->normal.half, &piece, NULL);
+    }
+    slip_whole(s, c, &piece, has_floor, output);
 }
 
-static BASE_NOINLINE void advance_tame_rk4(struct step_q27 *s, const struct step_q27_coeffs *c,
-                                           struct plant_output *output)
+static BASE_NOINLINE void advance_tame_other(struct step_q27 *s, const struct step_q27_coeffs *c,
+                                             struct plant_output *output)
 {
-    advance_tame(s, c, false, output);
+    if (c->has_floor) {
+        advance_tame(s, c, c->normal.is_exact, c->normal.has_phase, true, output);
+    } else {
+        advance_tame(s, c, c->normal.is_exact, c->normal.has_phase, false, output);
+    }
 }
 
 /* |x| and |v| below 4, and a normal motion that stays within the reach of the fine arithmetic. */
@@ -237,10 +243,10 @@ void step_q27_advance(struct step_q27 *state, const struct step_q27_coeffs *coef
     normal_q27_open_step(&state->normal, &coeffs->normal);
     if (BASE_UNLIKELY(!is_tame(state, coeffs))) {
         advance_in_pieces(state, coeffs, NULL, output);
-    } else if (coeffs->normal.is_exact) {
-        advance_tame(state, coeffs, true, output);
+    } else if (BASE_LIKELY(coeffs->is_plain)) {
+        advance_tame(state, coeffs, true, true, false, output);
     } else {
-        advance_tame_rk4(state, coeffs, output);
+        advance_tame_other(state, coeffs, output);
     }
 }
 
