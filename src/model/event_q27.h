@@ -23,9 +23,6 @@ struct event_q27_attempt {
 void event_q27_step(struct step_q27 *s, const struct step_q27_coeffs *c, struct event_q27_progress *progress,
                     const struct event_q27_attempt *attempt);
 
-/* RK4 on the raw sign. */
-void event_q27_naive_step(struct step_q27 *s, const struct step_q27_coeffs *c, struct event_q27_progress *progress);
-
 /* The disc has a new speed. A sticking pad follows if friction can also accelerate it; a slipping one keeps its speed. */
 void event_q27_set_speed(struct step_q27 *s, const struct step_q27_coeffs *c, int32_t speed);
 

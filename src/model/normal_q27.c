@@ -88,8 +88,8 @@ static void set_phase(struct normal_q27_phase *phase, int64_t cosine, int64_t si
     phase->minus_cosine = -phase->cosine;
 }
 
-void normal_q27_reset(struct normal_q27 *normal, const struct normal_q27_coeffs *coeffs, int32_t y, int32_t w, int32_t n,
-                      bool *is_saturated)
+void normal_q27_reset(struct normal_q27 *normal, const struct normal_q27_coeffs *coeffs, int32_t y, int32_t w,
+                      int32_t n, bool *is_saturated)
 {
     normal->y = y;
     normal->w = w;
@@ -149,6 +149,12 @@ static void look_series(const struct normal_q27 *normal, const struct normal_q27
     piece->w = fixed_saturate_and_tell((int64_t)e[1] + e[2] + fixed_round_up(velocity, 1u), is_saturated);
 }
 
+static BASE_NOINLINE void look_rk4(const struct normal_q27 *normal, const struct normal_q27_coeffs *coeffs, int32_t t,
+                                   int32_t damping_t, struct normal_q27_piece *piece, bool *is_saturated)
+{
+    normal_q27_look_rk4(normal, coeffs->sixth, t, damping_t, piece, is_saturated);
+}
+
 void normal_q27_look_part(const struct normal_q27 *normal, const struct normal_q27_coeffs *coeffs, int32_t fraction,
                           struct normal_q27_piece *piece, bool *is_saturated)
 {
@@ -158,7 +164,7 @@ void normal_q27_look_part(const struct normal_q27 *normal, const struct normal_q
     if (coeffs->is_exact) {
         look_series(normal, coeffs, t, damping_t, piece, is_saturated);
     } else {
-        normal_q27_look_rk4(normal, coeffs->sixth, t, damping_t, piece, is_saturated);
+        look_rk4(normal, coeffs, t, damping_t, piece, is_saturated);
     }
 }
 
@@ -168,7 +174,7 @@ void normal_q27_look(const struct normal_q27 *normal, const struct normal_q27_co
     struct normal_q27_arc arc;
 
     if (!coeffs->is_exact) {
-        normal_q27_look_rk4(normal, coeffs->sixth, coeffs->step, coeffs->damping, piece, is_saturated);
+        look_rk4(normal, coeffs, coeffs->step, coeffs->damping, piece, is_saturated);
     } else if (!normal->is_lifted) {
         normal_q27_look_end(normal, &coeffs->full, coeffs->has_phase, piece, is_saturated);
         normal_q27_look_stages(normal, &coeffs->half, piece, is_saturated);

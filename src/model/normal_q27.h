@@ -20,9 +20,9 @@ struct normal_q27_map {
 };
 
 struct normal_q27_coeffs {
-    int32_t sixth;   /* SUM_Q27_SIXTH */
-    int32_t step;    /* h */
-    int32_t damping; /* h Cn */
+    int32_t sixth;                    /* SUM_Q27_SIXTH */
+    int32_t step;                     /* h */
+    int32_t damping;                  /* h Cn */
     struct normal_q27_map full, half; /* over h and h/2 */
     uint32_t phase_stride;
     uint8_t terms; /* of the Taylor series */
@@ -39,8 +39,8 @@ struct normal_q27_phase {
 };
 
 struct normal_q27 {
-    int32_t y, w; /* displacement and velocity */
-    int32_t n;    /* brake force held over the present step */
+    int32_t y, w;        /* displacement and velocity */
+    int32_t n;           /* brake force held over the present step */
     int32_t least_force; /* the contact force is y, but never less than this */
     int32_t reach; /* |y| and |w| stay within it until the load or the contact changes; INT32_MAX if nothing is known */
     struct normal_q27_phase phase; /* where has_phase: at the end of the present step */
@@ -66,8 +66,8 @@ void normal_q27_configure(struct normal_q27_coeffs *coeffs, const struct params 
 int64_t normal_q27_step(const struct scale *scale, unsigned bits);
 
 /* Starts at y, w under the force n. */
-void normal_q27_reset(struct normal_q27 *normal, const struct normal_q27_coeffs *coeffs, int32_t y, int32_t w, int32_t n,
-                      bool *is_saturated);
+void normal_q27_reset(struct normal_q27 *normal, const struct normal_q27_coeffs *coeffs, int32_t y, int32_t w,
+                      int32_t n, bool *is_saturated);
 
 /* A new brake force takes hold from here on. */
 void normal_q27_set_load(struct normal_q27 *normal, const struct normal_q27_coeffs *coeffs, int32_t n,
@@ -86,7 +86,8 @@ void normal_q27_look_part(const struct normal_q27 *normal, const struct normal_q
 
 /* The way from the present state to the end of a piece that takes this fraction of the step. */
 void normal_q27_arc_make(struct normal_q27_arc *arc, const struct normal_q27 *normal,
-                         const struct normal_q27_coeffs *coeffs, int32_t fraction, const struct normal_q27_piece *piece);
+                         const struct normal_q27_coeffs *coeffs, int32_t fraction,
+                         const struct normal_q27_piece *piece);
 
 /* Displacement on the way, and its change by t. */
 static inline int32_t normal_q27_arc_y(const struct normal_q27_arc *arc, int32_t t)
@@ -145,19 +146,20 @@ BASE_INLINE void normal_q27_at(const struct normal_q27 *normal, int32_t *y, int3
     *w = sum_q27(0, (int64_t)phase->sine * cosine + (int64_t)phase->minus_cosine * sine, 32u, is_saturated);
 }
 
-/* h y'', less what the spring gives back. */
+/* h y''. A lifted pad, which the fast path does not serve, has no spring. */
 BASE_INLINE int32_t normal_q27_increment(const struct normal_q27 *normal, int32_t step, int32_t damping, int32_t y,
                                          int32_t w, bool *is_saturated)
 {
-    const int64_t pull = normal->is_lifted ? (int64_t)normal->n : (int64_t)normal->n - y;
+    const int64_t pull = (int64_t)normal->n - y;
 
-    return sum_q27(0, is_saturated == NULL ? (int64_t)step * (int32_t)pull - (int64_t)damping * w
-                                           : step * pull - (int64_t)damping * w,
-                   32u, is_saturated);
+    if (is_saturated == NULL) {
+        return sum_q27(0, (int64_t)step * (int32_t)pull - (int64_t)damping * w, 32u, NULL);
+    }
+    return sum_q27(0, step * (normal->is_lifted ? normal->n : pull) - (int64_t)damping * w, 32u, is_saturated);
 }
 
-BASE_INLINE void normal_q27_look_rk4(const struct normal_q27 *normal, int32_t sixth, int32_t step,
-                                     int32_t damping, struct normal_q27_piece *piece, bool *is_saturated)
+BASE_INLINE void normal_q27_look_rk4(const struct normal_q27 *normal, int32_t sixth, int32_t step, int32_t damping,
+                                     struct normal_q27_piece *piece, bool *is_saturated)
 {
     const int32_t half = step / 2;
     const int32_t y1 = normal->y;
@@ -202,8 +204,7 @@ BASE_INLINE void normal_q27_look_stages(const struct normal_q27 *normal, const s
                                         struct normal_q27_piece *piece, bool *is_saturated)
 {
     const int32_t d = sum_q27_plain(normal->y, -normal->n, is_saturated);
-    const int32_t middle =
-        sum_q27(normal->y, (int64_t)half->yy * d + (int64_t)half->yw * normal->w, 32u, is_saturated);
+    const int32_t middle = sum_q27(normal->y, (int64_t)half->yy * d + (int64_t)half->yw * normal->w, 32u, is_saturated);
 
     piece->p1 = normal_q27_force(normal, normal->y);
     piece->p2 = normal_q27_force(normal, middle);

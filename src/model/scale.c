@@ -67,19 +67,25 @@ static void choose_units(const struct params *params, float impedance, struct sc
 /* Does what the set can reach lie inside the units? */
 static struct params_problem check_fit(const struct params *params, const struct scale *scale)
 {
+    const float stiffness_max = SCALE_STIFFNESS_MAX / (float)(1u << scale->length_shift);
+
     if (scale_load_peak_n(params) > scale->load_n) {
         return blame(ERROR_OUT_OF_SCALE, "N0", 0.0f, scale->load_n);
     }
     if (scale_speed_peak_m_per_s(params) > scale->speed_m_per_s) {
         return blame(ERROR_OUT_OF_SCALE, "v0", -scale->speed_m_per_s, scale->speed_m_per_s);
     }
-    if (!(scale->stiffness <= SCALE_STIFFNESS_MAX)) {
+    if (!(scale->stiffness <= stiffness_max)) {
         return blame(ERROR_OUT_OF_SCALE, "kt", 0.0f,
-                     SCALE_STIFFNESS_MAX * params->stiffness_normal_n_per_m - params->stiffness_caliper_n_per_m);
+                     stiffness_max * params->stiffness_normal_n_per_m - params->stiffness_caliper_n_per_m);
     }
     if (!(scale->friction <= SCALE_FRICTION_MAX)) {
         return blame(ERROR_OUT_OF_SCALE, "mu_s", 0.0f,
                      SCALE_FRICTION_MAX / scale->friction * params->friction_static_ratio);
+    }
+    if (!(scale->friction_floor <= SCALE_FRICTION_MAX)) {
+        return blame(ERROR_OUT_OF_SCALE, "mu_floor", -1e30f,
+                     SCALE_FRICTION_MAX / scale->friction_floor * params->friction_floor_ratio);
     }
     if (!(fmath_abs(scale->friction_slope) <= SCALE_FRICTION_MAX)) {
         const float limit =
@@ -123,7 +129,6 @@ static void derive_groups(const struct params *params, float impedance, struct s
     scale->has_floor = params->friction_floor_ratio > -1e29f;
     scale->friction_floor = scale->has_floor ? params->friction_floor_ratio * friction_unit : 0.0f;
     scale->normal_damping = params->damping_normal_n_s_per_m / impedance;
-    scale->length_shift = length_shift(scale->stiffness);
 }
 
 struct params_problem scale_derive(const struct params *params, const struct scale *latched, struct scale *scale)
@@ -154,6 +159,7 @@ struct params_problem scale_derive(const struct params *params, const struct sca
     scale->step = 2.0f * FMATH_PI / (float)scale->steps_per_period;
     scale->step_s = scale->step / scale->omega_rad_per_s;
     derive_groups(params, impedance, scale);
+    scale->length_shift = latched != NULL ? latched->length_shift : length_shift(scale->stiffness);
 
     problem = check_fit(params, scale);
     return problem.error != ERROR_OK ? problem : check_step(scale);

@@ -8,7 +8,7 @@ static const float quarter[SINE_GRID / 4 + 1] = {
 #undef SINE_POINT
 
 /* The compiler rounds: these doubles never reach the firmware. */
-#define SINE_POINT(value) (int32_t)((value) < 1.0 ? (value) * 2147483648.0 + 0.5 : 2147483647.0),
+#define SINE_POINT(value) (int32_t)((value) < 1.0 ? (value)*2147483648.0 + 0.5 : 2147483647.0),
 const int32_t sine_quarter_q31[SINE_GRID / 4 + 1] = {
 #include "model/sine_table.def"
 };

@@ -13,20 +13,20 @@
 #include "model/normal_q27.h"
 #include "model/sum_q27.h"
 
-/* Fraction bits of the factors: FINE where all of them stay below 1/2 and the states below 4, which is the usual step;
+/* Fraction bits of the factors: FINE where all of them stay below 1/2 and the states are small, which is the usual step;
  * WIDE holds whatever the scale admits. */
 enum { SLIP_Q27_FINE = 32, SLIP_Q27_WIDE = 28 };
 
 struct slip_q27_factors {
-    int32_t sixth; /* SUM_Q27_SIXTH */
-    int32_t travel; /* h/2^length_shift in Q32: x per v */
-    int32_t spring; /* -h K, K = Z2 2^length_shift */
+    int32_t sixth;                 /* SUM_Q27_SIXTH */
+    int32_t travel;                /* h/2^length_shift in Q32: x per v */
+    int32_t spring;                /* -h K, K = Z2 2^length_shift */
     int32_t half_stretch, stretch; /* -h K travel/2 and -h K travel: what a velocity adds to the spring's increment */
-    int32_t friction; /* h mu */
-    int32_t fade;   /* -h eps */
-    int32_t floor;  /* h times the floor of mu; far below any mu where there is none */
-    int64_t drag;   /* -h C with 27 bits more, so that a small C is not rounded away, and the half that rounds */
-    int64_t knee;   /* (floor - friction) with 27 bits more: on the floor where -fade vr lies below it */
+    int32_t friction;              /* h mu */
+    int32_t fade;                  /* -h eps */
+    int32_t floor;                 /* h times the floor of mu; far below any mu where there is none */
+    int64_t drag; /* -h C with 27 bits more, so that a small C is not rounded away, and the half that rounds */
+    int64_t knee; /* (floor - friction) with 27 bits more: on the floor where -fade vr lies below it */
 };
 
 /* The pad as seen from its side. */

@@ -2,9 +2,10 @@
 #include "model/step_q27.h"
 
 #include "model/event_q27.h"
+#include "model/naive_q27.h"
 
 #define FINE_LIMIT (INT64_C(1) << 31) /* 1/2 in Q32 */
-#define TAME_LIMIT (1u << 29)         /* 4 in Q27 */
+#define TAME_LIMIT (1u << 28)         /* 2 in Q27 */
 #define FAULT_SPEED ((int32_t)SCALE_FAULT_SPEED << PLANT_FRACTION_BITS)
 
 /* h value 2^exponent, h exact to 38 bits. */
@@ -30,24 +31,34 @@ static void configure_factors(struct slip_q27_factors *f, const struct scale *sc
     f->knee = ((int64_t)f->floor - f->friction) * (1 << 27);
 }
 
-/* How far the normal motion may reach for every sum of the fast path to fit, or 0: all factors must stay below 1/2, h (C +
- * |eps| p) included. RK4 looks ahead, so a third is kept back. MODEL.md has the bounds that follow. */
+/* Does the fine arithmetic serve contact forces up to this many quarters? Where a step starts with |x| and |v| below 2, no
+ * increment of it exceeds 4 if none does under |v| <= 10 and |x| <= 2 + 16 travel; MODEL.md has the argument. */
+static bool is_fine(const struct scale *scale, int64_t quarters)
+{
+    const int64_t travel = normal_q27_step(scale, 32u - scale->length_shift);
+    const int64_t spring = times_step(scale, scale->stiffness, SLIP_Q27_FINE + (int)scale->length_shift);
+    const int64_t slope = times_step(scale, scale->friction_slope, SLIP_Q27_FINE);
+    const int64_t fade = slope < 0 ? -slope : slope;
+    const int64_t floor = times_step(scale, scale->friction_floor, SLIP_Q27_FINE);
+    const int64_t slipping = times_step(scale, scale->friction, SLIP_Q27_FINE) + fade + fade / 16; /* |disc| < 17/16 */
+    const int64_t drive = floor > slipping ? floor : slipping;
+    const int64_t drag = times_step(scale, scale->damping, SLIP_Q27_FINE) + fade * quarters / 4;
+
+    if (drive >= FINE_LIMIT || drag >= FINE_LIMIT || spring >= FINE_LIMIT || floor <= -FINE_LIMIT) {
+        return false;
+    }
+    return drive * quarters / 4 + 10 * drag + 2 * spring + 16 * fixed_round_up(spring * travel, 32u) <= 8 * FINE_LIMIT;
+}
+
+/* How far the normal motion may reach for the fine arithmetic to serve, or 0. The stages of RK4 look ahead by up to 3/5. */
 static int32_t fine_reach(const struct scale *scale)
 {
-    const int64_t spring = times_step(scale, scale->stiffness, SLIP_Q27_FINE + (int)scale->length_shift);
-    const int64_t friction = times_step(scale, scale->friction, SLIP_Q27_FINE);
-    const int64_t slope = times_step(scale, scale->friction_slope, SLIP_Q27_FINE);
-    const int64_t floor = times_step(scale, scale->friction_floor, SLIP_Q27_FINE);
-    const int64_t fade = slope < 0 ? -slope : slope;
-    const int64_t rest = FINE_LIMIT - 1 - times_step(scale, scale->damping, SLIP_Q27_FINE);
-    uint32_t ratio_q16;
-
-    /* The disc's speed stays within 1 but for rounding, so 17/16 of eps cover it. */
-    if (spring >= FINE_LIMIT || friction + fade + fade / 16 >= FINE_LIMIT || floor >= FINE_LIMIT || rest <= 0) {
-        return 0;
+    for (int32_t quarters = 16; quarters > 0; quarters /= 2) {
+        if (is_fine(scale, quarters)) {
+            return quarters * (1 << 25) / 8 * 5;
+        }
     }
-    ratio_q16 = (uint32_t)rest / ((uint32_t)(fade >> 16) + 1u);
-    return (int32_t)((ratio_q16 < (4u << 16) ? ratio_q16 : 4u << 16) * 2u / 3u * (1u << 11));
+    return 0;
 }
 
 void step_q27_configure(struct step_q27_coeffs *coeffs, const struct params *params, const struct scale *scale)
@@ -115,7 +126,7 @@ static BASE_NOINLINE void advance_in_pieces(struct step_q27 *s, const struct ste
     bool is_gap_held;
 
     if (c->is_naive) {
-        event_q27_naive_step(s, c, &progress);
+        naive_q27_step(s, c, &progress);
     } else {
         event_q27_step(s, c, &progress, attempt);
     }
@@ -214,7 +225,7 @@ static BASE_NOINLINE void advance_tame_other(struct step_q27 *s, const struct st
     }
 }
 
-/* |x| and |v| below 4, and a normal motion that stays within the reach of the fine arithmetic. */
+/* |x| and |v| below 2, and a normal motion that stays within the reach of the fine arithmetic. */
 BASE_INLINE bool is_tame(const struct step_q27 *s, const struct step_q27_coeffs *c)
 {
     const uint32_t size = ((uint32_t)s->x + TAME_LIMIT) | ((uint32_t)s->v + TAME_LIMIT);

@@ -16,8 +16,8 @@
 
 struct step_q27_coeffs {
     struct slip_q27_factors fine, wide; /* of a whole step */
-    int32_t drag;      /* -h C in the format of wide */
-    int32_t reach_max; /* the fast path serves a normal motion within it; 0: no motion at all */
+    int32_t drag;                       /* -h C in the format of wide */
+    int32_t reach_max;                  /* the fast path serves a normal motion within it; 0: no motion at all */
     bool is_plain; /* undamped closed form of y and no floor, the paper's set: the fast path is made for it */
     bool has_floor;
     bool is_naive; /* RK4 on the raw sign, no stick: for comparison only */
@@ -32,9 +32,9 @@ struct step_q27_input {
 };
 
 struct step_q27 {
-    int32_t x, v; /* displacement over 2^length_shift and velocity of the pad along the disc */
-    int32_t disc; /* disc speed held over the present step */
-    int8_t mode;  /* enum plant_mode */
+    int32_t x, v;      /* displacement over 2^length_shift and velocity of the pad along the disc */
+    int32_t disc;      /* disc speed held over the present step */
+    int8_t mode;       /* enum plant_mode */
     bool is_saturated; /* something did not fit, now or before */
     struct normal_q27 normal;
 };

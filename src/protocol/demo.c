@@ -37,7 +37,7 @@ void demo_obey(struct console *console)
     console_start_task(console, CONSOLE_TASK_DEMO);
 }
 
-/* Everything but the pace, which is the user's. */
+/* Everything but the pace and the number format, which are the user's. */
 static void load_act(const struct act *act, const struct params *now, struct params *params)
 {
     const struct preset *preset = presets_find(act->preset, token_first(act->preset).length);
@@ -50,6 +50,7 @@ static void load_act(const struct act *act, const struct params *now, struct par
     presets_load(preset, params);
     error = presets_assign(params, act->assignments, &info, &bad, &bad_length);
     BASE_ASSERT(error == ERROR_OK);
+    params->arithmetic = now->arithmetic;
     params->tick_hz = now->tick_hz;
     params->steps_per_tick = now->steps_per_tick;
 }

@@ -54,8 +54,7 @@ static struct step_f32_input input_f32(const struct sim_plan *plan, uint64_t ste
 
 static struct step_q27_input input_q27(const struct sim_plan *plan, uint64_t step)
 {
-    return (struct step_q27_input){profile_q27_value(&plan->load_q27, step),
-                                   profile_q27_value(&plan->speed_q27, step)};
+    return (struct step_q27_input){profile_q27_value(&plan->load_q27, step), profile_q27_value(&plan->speed_q27, step)};
 }
 
 static void reset_plant(struct sim *sim)
