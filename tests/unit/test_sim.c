@@ -80,6 +80,10 @@ static void check_not_finite(void)
     sim->f32.normal.y = 1.0f / zero;
     (void)sim_step(sim);
     tap_check(sim->fault == SIM_FAULT_DOMAIN, "so is the infinite");
+    plants_start(&plant, "N0 1");
+    sim->f32.normal.y = 70.0f;
+    (void)sim_step(sim);
+    tap_check(sim->fault == SIM_FAULT_DOMAIN, "so is a pad pressed far beyond any load");
     plants_start(&plant, "N0 1 xd0 60 v_max 5"); /* twelve units, three more than Q4.27 would need */
     tap_check(!sim->output.is_saturated, "twelve units fit the output");
     (void)sim_step(sim);
