@@ -23,13 +23,26 @@ float fmath_log2(float value);
 int32_t fmath_round_i32(float value);
 
 /* The bits of a float, and back. */
-uint32_t fmath_bits(float value);
-float fmath_from_bits(uint32_t bits);
+static inline uint32_t fmath_bits(float value)
+{
+    uint32_t bits;
+
+    __builtin_memcpy(&bits, &value, sizeof bits);
+    return bits;
+}
+
+static inline float fmath_from_bits(uint32_t bits)
+{
+    float value;
+
+    __builtin_memcpy(&value, &bits, sizeof value);
+    return value;
+}
 
 /* Finite: neither infinite nor NaN. */
 bool fmath_is_finite(float value);
 
-static inline float fmath_abs(float value) { return value < 0.0f ? -value : value; }
+static inline float fmath_abs(float value) { return __builtin_fabsf(value); }
 static inline float fmath_max(float a, float b) { return a > b ? a : b; }
 static inline float fmath_min(float a, float b) { return a < b ? a : b; }
 

@@ -124,6 +124,22 @@ static void advance(struct step_f32 *s, struct progress *progress, const struct 
     progress->is_whole = false;
 }
 
+/* A curve that stays above its first tangent stays above 0 when the tangent does: the usual case, decided cheaply. */
+BASE_INLINE bool stays_clear(float vr_start, float slope, float vr_end)
+{
+    return vr_end >= 0.0f && (slope >= 0.0f || vr_start + slope > 0.0f || vr_start <= 0.0f);
+}
+
+/* What friction could hold beyond what it must, if the pad stuck at x under the contact force p; *side is where it would
+ * slip. */
+BASE_INLINE float stick_spare(const struct step_f32 *s, const struct step_f32_coeffs *c, float x, float p, int8_t *side)
+{
+    const float need = c->damping * s->disc + c->stiffness * x;
+
+    *side = need > 0.0f ? PLANT_SLIP_PLUS : PLANT_SLIP_MINUS;
+    return c->friction * p - signed_by(*side, need);
+}
+
 /* Looks for vr = 0 in a slip piece, also for a dip below 0 and back. Returns the place in (0, 1], 0 for "at the start",
  * or a negative number for "not in this piece". */
 static float find_crossing(const struct step_f32 *s, const struct step_f32_coeffs *c,
@@ -137,8 +153,7 @@ static float find_crossing(const struct step_f32 *s, const struct step_f32_coeff
     float p_end;
     float d1;
 
-    /* A curve that stays above its first tangent stays above 0 when the tangent does: the usual case, decided cheaply. */
-    if (f1 >= 0.0f && (d0 >= 0.0f || f0 + d0 > 0.0f || f0 <= 0.0f)) {
+    if (stays_clear(f0, d0, f1)) {
         return -1.0f;
     }
     p_end = normal_f32_force(&s->normal, piece->y);
@@ -201,9 +216,8 @@ static void stick_piece(struct step_f32 *s, const struct step_f32_coeffs *c, str
                         struct normal_f32_piece *piece, float duration)
 {
     const float x_end = s->x + s->disc * duration;
-    const float need_end = c->damping * s->disc + c->stiffness * x_end;
-    const int8_t side = need_end > 0.0f ? PLANT_SLIP_PLUS : PLANT_SLIP_MINUS;
-    const float spare_end = c->friction * normal_f32_force(&s->normal, piece->y) - signed_by(side, need_end);
+    int8_t side;
+    const float spare_end = stick_spare(s, c, x_end, normal_f32_force(&s->normal, piece->y), &side);
     float need_start;
     float spare_start;
     float part = 0.0f;
@@ -273,6 +287,40 @@ static void change_contact(struct step_f32 *s, const struct step_f32_coeffs *c, 
     }
 }
 
+/* The usual step: no switch of regime, no change of contact. False, and nothing done, where there is more to it. */
+static bool plain_step(struct step_f32 *s, const struct step_f32_coeffs *c, struct progress *progress)
+{
+    const float h = c->normal.step;
+    struct normal_f32_piece piece;
+    struct slip_end end;
+
+    if (c->normal.contact == CONTACT_LIFT) {
+        return false;
+    }
+    normal_f32_look(&s->normal, &c->normal, h, true, &piece);
+    if (s->mode == PLANT_STICK) {
+        int8_t side;
+
+        end = (struct slip_end){s->x + s->disc * h, s->v};
+        if (stick_spare(s, c, end.x, normal_f32_force(&s->normal, piece.y), &side) < 0.0f) {
+            return false;
+        }
+    } else {
+        const float a1 = acceleration(c, s->disc, s->mode, s->x, s->v, piece.p1);
+
+        slip(s, c, &piece, h, a1, &end);
+        if (!stays_clear(signed_by(s->mode, s->disc - s->v), -signed_by(s->mode, a1) * h,
+                         signed_by(s->mode, s->disc - end.v))) {
+            return false;
+        }
+    }
+    advance(s, progress, &piece, h);
+    s->x = end.x;
+    s->v = end.v;
+    progress->is_lifted = s->normal.y < 0.0f;
+    return true;
+}
+
 static void event_step(struct step_f32 *s, const struct step_f32_coeffs *c, struct progress *progress)
 {
     const float least = 1e-6f * c->normal.step;
@@ -334,7 +382,7 @@ static void naive_step(struct step_f32 *s, const struct step_f32_coeffs *c, stru
 /* Q4.27, saturating; a NaN comes out as 0 and is flagged. */
 static int32_t to_q27(float value, bool *is_saturated)
 {
-    if (!(value <= OUTPUT_MAX && value >= -OUTPUT_MAX)) {
+    if (BASE_UNLIKELY(!(fmath_abs(value) <= OUTPUT_MAX))) {
         *is_saturated = true;
         return value > OUTPUT_MAX ? INT32_MAX : value < -OUTPUT_MAX ? -INT32_MAX : 0;
     }
@@ -407,7 +455,7 @@ void step_f32_advance(struct step_f32 *state, const struct step_f32_coeffs *coef
     }
     if (coeffs->is_naive) {
         naive_step(state, coeffs, &progress);
-    } else {
+    } else if (!plain_step(state, coeffs, &progress)) {
         event_step(state, coeffs, &progress);
     }
     is_gap_held = normal_f32_close_step(&state->normal, &coeffs->normal);
