@@ -160,8 +160,7 @@ static bool read_count(struct console *console, uint32_t high, uint32_t *count)
     }
     if (!token_number(word, 1u, high, count)) {
         console_begin_error(console, ERROR_OUT_OF_RANGE);
-        text_put(console->text, ' ');
-        text_write(console->text, word.start);
+        text_key_text(console->text, token_is(token_first(console->command), "step") ? "n" : "periods", word.start);
         text_write(console->text, ": 1 .. ");
         text_u64(console->text, high);
         text_write(console->text, ", a whole number");

@@ -99,7 +99,7 @@ void status_write(struct text *text, const struct console *console, const struct
     text_key_product(text, "t", report->now.step, plan->scale.step_s, DECIMAL_DIGITS_EXACT);
     text_key_u64(text, "generation", report->generation);
     write_method(text, plan);
-    text_key_u64(text, "substeps", (uint64_t)params->steps_per_tick);
+    text_key_u64(text, "substeps", (uint32_t)params->steps_per_tick);
     text_key_shortest(text, "tick", params->tick_hz);
     report_field(text, "sigma", params->tick_hz * params->steps_per_tick * plan->scale.step_s);
     write_loss(text, plan);
