@@ -43,6 +43,17 @@ static inline float fmath_from_bits(uint32_t bits)
 bool fmath_is_finite(float value);
 
 static inline float fmath_abs(float value) { return __builtin_fabsf(value); }
+/* value + change, where what rounding took away is kept in *rest and comes in again with the next change: a state that
+ * grows by small steps keeps their sum to twice the digits (Kahan). */
+static inline float fmath_add_kept(float value, float change, float *rest)
+{
+    const float wanted = change + *rest;
+    const float sum = value + wanted;
+
+    *rest = wanted - (sum - value);
+    return sum;
+}
+
 static inline float fmath_max(float a, float b) { return a > b ? a : b; }
 static inline float fmath_min(float a, float b) { return a < b ? a : b; }
 

@@ -20,8 +20,10 @@ struct progress {
 
 /* End of one slip piece. */
 struct slip_end {
-    float x, v;
+    float dx, v; /* change of x, velocity */
 };
+
+static void move_x(struct step_f32 *s, float dx) { s->x = fmath_add_kept(s->x, dx, &s->x_rest); }
 
 static float signed_by(int8_t sign, float value) { return sign < 0 ? -value : value; }
 
@@ -67,7 +69,7 @@ BASE_INLINE void slip_as(const struct step_f32 *s, const struct step_f32_coeffs 
     const float v4 = v1 + duration * a3;
     const float a4 = acceleration_at(c, disc, sign, x4, v4, piece->p4, has_floor);
 
-    end->x = x1 + sixth * (v1 + 2.0f * (v2 + v3) + v4);
+    end->dx = sixth * (v1 + 2.0f * (v2 + v3) + v4);
     end->v = v1 + sixth * (a1 + 2.0f * (a2 + a3) + a4);
 }
 
@@ -157,7 +159,7 @@ static float find_crossing(const struct step_f32 *s, const struct step_f32_coeff
         return -1.0f;
     }
     p_end = normal_f32_force(&s->normal, piece->y);
-    d1 = -signed_by(s->mode, acceleration(c, s->disc, s->mode, end->x, end->v, p_end)) * duration;
+    d1 = -signed_by(s->mode, acceleration(c, s->disc, s->mode, s->x + end->dx, end->v, p_end)) * duration;
     vr = hermite_f32_make(f0, d0, f1, d1);
     if (f1 >= 0.0f) {
         if (d1 <= 0.0f) {
@@ -189,7 +191,7 @@ static void slip_piece(struct step_f32 *s, const struct step_f32_coeffs *c, stru
     }
     if (BASE_LIKELY(!(place >= 0.0f))) { /* NaN goes on too, to be caught by the domain check */
         advance(s, progress, piece, duration);
-        s->x = end.x;
+        move_x(s, end.dx);
         s->v = end.v;
         return;
     }
@@ -200,7 +202,7 @@ static void slip_piece(struct step_f32 *s, const struct step_f32_coeffs *c, stru
         normal_f32_look(&s->normal, &c->normal, part, false, piece);
         slip(s, c, piece, part, a1, &end);
         advance(s, progress, piece, part);
-        s->x = end.x;
+        move_x(s, end.dx);
     }
     s->v = s->disc;
     s->mode = regime_at_rest(s, c, 0.0f);
@@ -215,9 +217,9 @@ static float force_rate(const struct normal_f32 *normal, float y, float w)
 static void stick_piece(struct step_f32 *s, const struct step_f32_coeffs *c, struct progress *progress,
                         struct normal_f32_piece *piece, float duration)
 {
-    const float x_end = s->x + s->disc * duration;
+    const float dx = s->disc * duration;
     int8_t side;
-    const float spare_end = stick_spare(s, c, x_end, normal_f32_force(&s->normal, piece->y), &side);
+    const float spare_end = stick_spare(s, c, s->x + dx, normal_f32_force(&s->normal, piece->y), &side);
     float need_start;
     float spare_start;
     float part = 0.0f;
@@ -225,7 +227,7 @@ static void stick_piece(struct step_f32 *s, const struct step_f32_coeffs *c, str
     if (BASE_LIKELY(spare_end >= 0.0f) || progress->events == PLANT_EVENTS_MAX) {
         progress->is_capped = progress->is_capped || spare_end < 0.0f;
         advance(s, progress, piece, duration);
-        s->x = x_end;
+        move_x(s, dx);
         return;
     }
     progress->events++;
@@ -242,7 +244,7 @@ static void stick_piece(struct step_f32 *s, const struct step_f32_coeffs *c, str
     }
     if (part > 0.0f) {
         normal_f32_look(&s->normal, &c->normal, part, false, piece);
-        s->x += s->disc * part;
+        move_x(s, s->disc * part);
         advance(s, progress, piece, part);
     }
     s->mode = side;
@@ -281,6 +283,7 @@ static void change_contact(struct step_f32 *s, const struct step_f32_coeffs *c, 
 {
     progress->contacts++;
     s->normal.y = 0.0f;
+    s->normal.y_rest = 0.0f;
     s->normal.is_lifted = s->normal.w < 0.0f;
     if (s->normal.is_lifted && s->mode == PLANT_STICK) {
         s->mode = regime_at_rest(s, c, 0.0f);
@@ -301,8 +304,8 @@ static bool plain_step(struct step_f32 *s, const struct step_f32_coeffs *c, stru
     if (s->mode == PLANT_STICK) {
         int8_t side;
 
-        end = (struct slip_end){s->x + s->disc * h, s->v};
-        if (stick_spare(s, c, end.x, normal_f32_force(&s->normal, piece.y), &side) < 0.0f) {
+        end = (struct slip_end){s->disc * h, s->v};
+        if (stick_spare(s, c, s->x + end.dx, normal_f32_force(&s->normal, piece.y), &side) < 0.0f) {
             return false;
         }
     } else {
@@ -315,7 +318,7 @@ static bool plain_step(struct step_f32 *s, const struct step_f32_coeffs *c, stru
         }
     }
     advance(s, progress, &piece, h);
-    s->x = end.x;
+    move_x(s, end.dx);
     s->v = end.v;
     progress->is_lifted = s->normal.y < 0.0f;
     return true;
@@ -369,7 +372,7 @@ static void naive_step(struct step_f32 *s, const struct step_f32_coeffs *c, stru
     a3 = naive_acceleration(c, s->disc, s->x + 0.5f * h * v2, v3, piece.p3);
     v4 = s->v + h * a3;
     a4 = naive_acceleration(c, s->disc, s->x + h * v3, v4, piece.p4);
-    s->x += h * (1.0f / 6.0f) * (s->v + 2.0f * (v2 + v3) + v4);
+    move_x(s, h * (1.0f / 6.0f) * (s->v + 2.0f * (v2 + v3) + v4));
     s->v += h * (1.0f / 6.0f) * (a1 + 2.0f * (a2 + a3) + a4);
     s->mode = (int8_t)((s->disc > s->v) - (s->disc < s->v));
     advance(s, progress, &piece, h);
@@ -433,6 +436,7 @@ void step_f32_reset(struct step_f32 *state, const struct step_f32_coeffs *coeffs
                     const struct scale *scale, struct step_f32_input first)
 {
     state->x = params->x_initial_m / scale->length_m;
+    state->x_rest = 0.0f;
     state->v = params->xd_initial_m_per_s / scale->speed_m_per_s;
     normal_f32_reset(&state->normal, &coeffs->normal, params->y_initial_m / scale->normal_m,
                      params->yd_initial_m_per_s / (scale->normal_m * scale->omega_rad_per_s), first.load);

@@ -37,10 +37,13 @@ static void check_step(void)
 {
     plan_of(UNIT_SET "load step N0 2 N1 5 t1 1.0259264 speed step v0 1 v1 -2 tv1 1.0357438");
     tap_check_close(load_at(9u), 2.0f, 1e-6f, "before its instant a step has the first value");
-    tap_check_close(load_at(10u), 5.0f, 2e-6f, "an instant 0.45 after a grid point is moved back to it");
-    tap_check_close(speed_at(10u), 1.0f, 1e-6f, "one 0.55 after it goes to the next");
+    tap_check_close(load_at(10u), 2.0f + 3.0f * 0.42625f, 3e-5f, "a load step 0.45 into a model step begins in it");
+    tap_check_close(load_at(11u), 2.0f + 3.0f * 1.12375f, 3e-5f, "and makes up for the rest in the next");
+    tap_check_close(load_at(10u) + load_at(11u), 2.0f * 5.0f - 3.0f * 0.45f, 3e-5f, "with the impulse of the real one");
+    tap_check_close(load_at(12u), 5.0f, 2e-6f, "then it has its last value");
+    tap_check_close(speed_at(10u), 1.0f, 1e-6f, "a speed step 0.55 into a model step goes to the next grid point");
     tap_check_close(speed_at(11u), -2.0f, 1e-6f, "where the last value begins");
-    tap_check(profile_is_moving(&plan.load, 10u) && !profile_is_moving(&plan.load, 11u), "it moves until then");
+    tap_check(profile_is_moving(&plan.load, 11u) && !profile_is_moving(&plan.load, 12u), "it moves until then");
     plan_of(UNIT_SET "load step N0 2 N1 5 t1 0");
     tap_check_close(load_at(0u), 5.0f, 2e-6f, "a step at time 0 is there at once");
     plan_of(UNIT_SET "load step N0 2 N1 5 t1 1e6");
