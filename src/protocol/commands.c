@@ -15,7 +15,10 @@ static const struct command {
 #undef COMMAND
 };
 
-enum { PERIODS_MAX = 1000000 };
+enum {
+    PERIODS_MAX = 1000000,
+    HELP_COLUMN = 19 /* of what a command does, where its arguments leave it free */
+};
 
 static const struct command *find_command(struct token name)
 {
@@ -47,11 +50,17 @@ static void answer_plain(struct console *console)
 
 static void tell_command(struct console *console, const struct command *command)
 {
+    size_t start;
+
     console_begin_body(console);
+    start = console->text->head;
     text_write(console->text, command->name);
     text_write(console->text, command->arguments[0] != '\0' ? " " : "");
     text_write(console->text, command->arguments);
     text_write(console->text, "  ");
+    while (console->text->head - start < HELP_COLUMN) {
+        text_put(console->text, ' ');
+    }
     text_write(console->text, command->help);
     console_end(console);
 }

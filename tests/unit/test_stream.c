@@ -173,6 +173,23 @@ static void check_gap(void)
     tap_check(field(bench.last, " drops=") == 0u, "a new stream counts anew");
 }
 
+/* Steps that are granted wait for their samples, so a slow line loses none. */
+static void check_slow_line(void)
+{
+    bool is_busy;
+
+    bench_open();
+    (void)bench_say("stream csv step every 1 force\r");
+    bench_listen_anew();
+    (void)bench_turn("step 3000\r", 10u, 0u, &is_busy);
+    while (bench.oks == 0u) {
+        (void)bench_turn("", 0u, 16u, &is_busy);
+    }
+    tap_check(bench.samples == 3000u, "steps that are granted wait for the line, and lose no sample");
+    (void)bench_say("status\r");
+    tap_check(field(bench.last, " drops=") == 0u, "nor count one");
+}
+
 void test_stream(void)
 {
     check_parse();
@@ -182,4 +199,5 @@ void test_stream(void)
     check_teleplot();
     check_sample_bytes();
     check_gap();
+    check_slow_line();
 }
