@@ -9,7 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define SOUND_LEAST_S 0.6     /* of physical time; a tone is hard to judge in less */
+#define SOUND_LEAST_S 0.55    /* of physical time; a tone is hard to judge in less */
 #define SOUND_LOWEST_HZ 200.0 /* below this it is a groan that small speakers do not play */
 #define DISC_SLOWS 0.05       /* a disc that loses this share of its speed within an act is being stopped */
 #define TICK_FASTEST_HZ 4000.0
@@ -97,8 +97,8 @@ static bool must(struct story *story, const char *line)
     return false;
 }
 
-/* Has the device stream every step, and slows its tick down until the line carries that. Time is virtual or the device
- * paces itself, and no bit of the trajectory depends on the tick. */
+/* Has the device stream, and slows its tick down until the line carries that. No bit of the trajectory depends on the
+ * tick. */
 static bool stream_start(struct story *story, struct act *act)
 {
     char line[SESSION_COMMAND_MAX];
@@ -118,7 +118,7 @@ static bool stream_start(struct story *story, struct act *act)
             return false;
         }
     }
-    story_fail(story, "the line is too slow for a stream of every step");
+    story_fail(story, "the line is too slow for the stream");
     return false;
 }
 

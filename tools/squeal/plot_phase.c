@@ -81,7 +81,8 @@ static void path_write(FILE *script, const struct act *act, size_t to, struct pl
         points_write(script, act, from, from + period + 1, length, speed);
         (void)fputs(stride > period ? "\n" : "", script);
     }
-    points_write(script, act, act->start, act->start + 1, length, speed); /* gnuplot wants one point at least */
+    (void)fputs("\n", script); /* gnuplot wants one point at least */
+    points_write(script, act, act->start, act->start + 1, length, speed);
     (void)fputs("END\n", script);
 }
 
@@ -119,6 +120,8 @@ void plot_phase(struct story *story, const struct act *act)
     }
     const struct sample *last = &act->samples[act->count - 1];
     const struct box all = box_of(act, act->start, act->count);
+    const struct box end = box_of(act, tail_start, act->count);
+    const struct box point = {last->x_m, last->x_m, last->xd_m_per_s, last->xd_m_per_s};
     const struct plot_unit length = plot_unit_of_length(fmax(-all.x_low, all.x_high));
     const struct plot_unit speed = plot_unit_of_speed(fmax(-all.v_low, all.v_high));
     path_write(script, act, path_end(act, tail_start, &all), length, speed);
@@ -136,9 +139,9 @@ void plot_phase(struct story *story, const struct act *act)
                       "set offsets graph 0.05,0.05,0,0\n"
                       "plot $path with lines lw 1 lc rgb '" PLOT_COLOUR_PATH "' title 'the way there', "
                       "$motion with lines lw 2.5 lc rgb '" PLOT_COLOUR_MOTION "' title 'at the end', "
-                      "$end with points pt 7 ps 1.2 lc rgb '" PLOT_COLOUR_MOTION "' notitle, "
+                      "$end with points pt 7 ps %d lc rgb '" PLOT_COLOUR_MOTION "' notitle, "
                       "NaN with lines lw 2 dt 2 lc rgb '" PLOT_COLOUR_DISC "' title disc\n",
-                      length.name, speed.name);
+                      length.name, speed.name, box_is_same(&end, &point, &all) ? 1 : 0); /* a motion that died out */
     }
     plot_script_close(story, script, name, "phase portrait");
 }
