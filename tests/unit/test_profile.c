@@ -106,7 +106,7 @@ static void check_sine(void)
 static void check_exact_phase(void)
 {
     /* A frequency that is a power of two of the steps' rate is exact, so its phase never drifts. */
-    const struct profile profile = {PROFILE_SINE, 0.0f, 1.0f, 0u, 0.0f, 0.0f, UINT64_C(1) << 58};
+    const struct profile profile = {.kind = PROFILE_SINE, .to = 1.0f, .turns_per_step = UINT64_C(1) << 58};
     const uint64_t late = UINT64_C(1) << 50;
     bool is_same = true;
 
