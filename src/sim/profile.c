@@ -25,10 +25,16 @@ static void jump_if_sudden(struct profile *profile)
     }
 }
 
+/* The last value itself where the share is whole: rounded by a bit it would be a change of the load later on. */
+static float between(const struct profile *profile, float share)
+{
+    return share == 1.0f ? profile->to : profile->from + (profile->to - profile->from) * share;
+}
+
 static void set_step(struct profile *profile, float first_share, float second_share)
 {
-    profile->first = profile->from + (profile->to - profile->from) * first_share;
-    profile->second = profile->from + (profile->to - profile->from) * second_share;
+    profile->first = between(profile, first_share);
+    profile->second = between(profile, second_share);
 }
 
 void profile_load(struct profile *profile, const struct params *params, const struct scale *scale)
