@@ -35,6 +35,9 @@ static void check_constant(void)
 /* h = 0.0981748 s: 10.45 steps are 1.0259264 s, 10.55 are 1.0357438 s. */
 static void check_step(void)
 {
+    uint32_t state = 31u;
+    bool is_steady = true;
+
     plan_of(UNIT_SET "load step N0 2 N1 5 t1 1.0259264 speed step v0 1 v1 -2 tv1 1.0357438");
     tap_check_close(load_at(9u), 2.0f, 1e-6f, "before its instant a step has the first value");
     tap_check_close(load_at(10u), 2.0f + 3.0f * 0.42625f, 3e-5f, "a load step 0.45 into a model step begins in it");
@@ -46,6 +49,15 @@ static void check_step(void)
     tap_check(profile_is_moving(&plan.load, 11u) && !profile_is_moving(&plan.load, 12u), "it moves until then");
     plan_of(UNIT_SET "load step N0 2 N1 5 t1 0");
     tap_check_close(load_at(0u), 5.0f, 2e-6f, "a step at time 0 is there at once");
+    for (uint32_t i = 0u; i < plants_scaled(2000u, 100u); i++) {
+        struct params params = plants_params(UNIT_SET "load step t1 0");
+
+        params.load_n = plants_random(&state, 0.0f, 10.0f);
+        params.load_end_n = plants_random(&state, 0.0f, 10.0f);
+        plants_plan(&plan, &params);
+        is_steady = is_steady && load_at(0u) == load_at(2u) && load_at(1u) == load_at(2u);
+    }
+    tap_check(is_steady, "in one change, to the bit: the plant may take it for a load that never changed");
     plan_of(UNIT_SET "load step N0 2 N1 5 t1 1e6");
     tap_check_close(load_at(10000000u), 2.0f, 1e-6f, "a late step waits");
 }
