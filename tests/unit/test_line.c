@@ -59,6 +59,8 @@ static void check_echo(void)
     open_line();
     (void)type("ab\b\b\b\tc\r");
     tap_check(echoed("ab\b \b\b \b c\r\n"), "what is typed is echoed");
+    (void)type("a\r\n\r");
+    tap_check(echoed("a\r\n\r\n"), "CR LF is one end to the eye as well");
     (void)type("get");
     (void)echoed("get");
     line_make_way(&line, &echo);

@@ -169,8 +169,8 @@ static void check_gap(void)
     tap_check(sent >= EXECUTIVE_SAMPLES && sent < steps, "some samples were lost, the others came before the answer");
     (void)bench_say("status\r");
     tap_check(field(bench.last, " drops=") == steps - sent, "and every loss is counted");
-    (void)bench_say("stream csv step every 1 force\rstatus\r");
-    tap_check(field(bench.last, " drops=") == 0u, "a new stream counts anew");
+    (void)bench_say("reset\rstatus\r");
+    tap_check(field(bench.last, " drops=") == 0u, "from the last reset");
 }
 
 /* Steps that are granted wait for their samples, so a slow line loses none. */
@@ -179,15 +179,40 @@ static void check_slow_line(void)
     bool is_busy;
 
     bench_open();
-    (void)bench_say("stream csv step every 1 force\r");
+    (void)bench_say("set substeps 64\rstream csv step every 1 force\r");
     bench_listen_anew();
     (void)bench_turn("step 3000\r", 10u, 0u, &is_busy);
     while (bench.oks == 0u) {
-        (void)bench_turn("", 0u, 16u, &is_busy);
+        (void)bench_turn("", 0u, 64u, &is_busy);
     }
     tap_check(bench.samples == 3000u, "steps that are granted wait for the line, and lose no sample");
     (void)bench_say("status\r");
     tap_check(field(bench.last, " drops=") == 0u, "nor count one");
+}
+
+/* A change of the stream while samples of the old one still wait. */
+static void check_change(void)
+{
+    static const char line[] = "stream csv N,step every 9 force\r";
+    size_t lines = 0u;
+    bool is_busy;
+
+    bench_open();
+    (void)bench_say("stream csv step every 1 force\rrun\r");
+    while (bench.executive.sim.step < 2000u) {
+        (void)bench_turn("", 0u, 0u, &is_busy);
+    }
+    bench_listen_anew();
+    (void)bench_turn(line, sizeof line - 1u, 0u, &is_busy);
+    bench_wait(30u);
+    for (const char *c = bench.heard; *c != '\0' && !bench_starts(c, "ok stream"); c++) {
+        lines += *c == '\n' ? 1u : 0u;
+    }
+    tap_check(lines > EXECUTIVE_SAMPLES, "the old stream's samples come before the new one's answer");
+    tap_check(bench_holds(bench.heard, "\r\n#N,step\r\n1,20"), "then its header, and samples taken since");
+    (void)bench_say("stop\r");
+    (void)bench_say("step 9\r");
+    tap_check(bench.samples == 1u && bench_starts(bench.heard, "1,"), "and it outlasts a stop");
 }
 
 void test_stream(void)
@@ -200,4 +225,5 @@ void test_stream(void)
     check_sample_bytes();
     check_gap();
     check_slow_line();
+    check_change();
 }
