@@ -54,6 +54,12 @@ static inline float fmath_add_kept(float value, float change, float *rest)
     return sum;
 }
 
+/* A 64-bit count as a float, error below one unit in the last place. The compiler's own conversion goes through double. */
+static inline float fmath_from_u64(uint64_t count)
+{
+    return (float)(uint32_t)(count >> 32) * 4294967296.0f + (float)(uint32_t)count;
+}
+
 static inline float fmath_max(float a, float b) { return a > b ? a : b; }
 static inline float fmath_min(float a, float b) { return a < b ? a : b; }
 

@@ -8,9 +8,10 @@
 
 enum { V10_RATIO = 10 };
 
+/* Q4.27 of a value above -16, at most 15. */
 static int32_t to_q27(float value)
 {
-    return fixed_saturate((int64_t)(fmath_min(value, 15.0f) * (float)(1 << PLANT_FRACTION_BITS)));
+    return (int32_t)(fmath_min(value, 15.0f) * (float)(1 << PLANT_FRACTION_BITS));
 }
 
 static struct detector_config detector_config(const struct params *params, const struct scale *scale)
