@@ -58,11 +58,18 @@ static void check_growth(void)
     tap_check(is_watched && verdict->propensity == PROPENSITY_SQUEAL, "never quiet, it ends as squeal");
     tones_start(&bench, 0.2f, tones_forced, (struct tone){0.001f, TONES_TURN_OWN, 2e-5f / TONES_SPP});
     tap_check(tones_run_to(&bench, 8u)->propensity == PROPENSITY_QUIET, "slower than 5e-5 a period is no growth");
+    tones_start(&bench, 0.2f, tones_forced, (struct tone){2e-5f, TONES_TURN_OWN, 0.03f / TONES_SPP});
+    tap_check(tones_run_to(&bench, 4u)->propensity == PROPENSITY_WATCH && verdict->has_growth,
+              "a tone of 2e-5 is seen");
+    tones_start(&bench, 0.2f, tones_forced, (struct tone){2e-7f, TONES_TURN_OWN, 0.03f / TONES_SPP});
+    tap_check(tones_run_to(&bench, 4u)->propensity == PROPENSITY_QUIET && !verdict->has_growth, "one of 2e-7 is noise");
 
     tones_start(&bench, 0.2f, tones_forced, (struct tone){0.15f, TONES_TURN_OWN, -0.03f / TONES_SPP});
     tap_check(tones_run_to(&bench, 4u)->propensity == PROPENSITY_QUIET && verdict->growth_q16 < 0,
               "one that dies out is quiet");
     tap_check(tones_say(tones_run_to(&bench, 8u), PROPENSITY_QUIET, CLASS_DECAYING, 0u), "and called decaying");
+    tap_check(tones_say(tones_run_to(&bench, 22u), PROPENSITY_QUIET, CLASS_DECAYING, 0u),
+              "also while only the older of 56 periods show it");
     tap_check(tones_say(tones_run_to(&bench, 40u), PROPENSITY_QUIET, CLASS_FORCED, 1u),
               "until the forced motion is left");
 }
