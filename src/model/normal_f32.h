@@ -29,8 +29,8 @@ struct normal_f32_coeffs {
 struct normal_f32 {
     float y, w;           /* displacement and velocity */
     float y_rest, w_rest; /* what rounding took from them so far */
-    float n;            /* brake force held over the present step */
-    float cosine, sine; /* y = n + cosine cos(phase) + sine sin(phase), where has_phase */
+    float n;              /* brake force held over the present step */
+    float cosine, sine;   /* y = n + cosine cos(phase) + sine sin(phase), where has_phase */
     uint32_t phase;
     float least_force; /* the contact force is y, but never less than this: 0, or far below all y where it may pull */
     bool is_lifted;    /* spring off: contact lift and y < 0 */

@@ -26,8 +26,8 @@ struct step_f32_input {
 struct step_f32 {
     float x, v;   /* displacement and velocity of the pad along the disc */
     float x_rest; /* what rounding took from x so far: without it an equilibrium rustles at 1e-5 of x */
-    float disc;  /* disc speed held over the present step */
-    int8_t mode; /* enum plant_mode */
+    float disc;   /* disc speed held over the present step */
+    int8_t mode;  /* enum plant_mode */
     struct normal_f32 normal;
 };
 

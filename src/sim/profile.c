@@ -31,10 +31,10 @@ static float between(const struct profile *profile, float share)
     return share == 1.0f ? profile->to : profile->from + (profile->to - profile->from) * share;
 }
 
-static void set_step(struct profile *profile, float first_share, float second_share)
+/* How much of a change at t1 counts in this step, which is not before it. */
+static float share_at(const struct profile *profile, uint64_t step)
 {
-    profile->first = between(profile, first_share);
-    profile->second = between(profile, second_share);
+    return step == profile->start ? profile->first : step == profile->start + 1u ? profile->second : 1.0f;
 }
 
 void profile_load(struct profile *profile, const struct params *params, const struct scale *scale)
@@ -47,7 +47,8 @@ void profile_load(struct profile *profile, const struct params *params, const st
     set_times(profile, params->load_start_s, params->load_end_s, scale);
     jump_if_sudden(profile);
     late = profile->start_fraction;
-    set_step(profile, 0.5f * (2.0f - late) * (1.0f - late), 0.5f * (2.0f - late) * (1.0f + late));
+    profile->first = 0.5f * (2.0f - late) * (1.0f - late);
+    profile->second = 0.5f * (2.0f - late) * (1.0f + late);
     if (profile->kind == PROFILE_SINE) {
         const float turns = params->load_frequency_hz * scale->step_s;
         const uint32_t whole = (uint32_t)turns;
@@ -65,7 +66,8 @@ void profile_speed(struct profile *profile, const struct params *params, const s
     profile->to = params->speed_end_m_per_s / scale->speed_m_per_s;
     set_times(profile, params->speed_start_s, params->speed_end_s, scale);
     jump_if_sudden(profile);
-    set_step(profile, profile->start_fraction < 0.5f ? 1.0f : 0.0f, 1.0f);
+    profile->first = profile->start_fraction < 0.5f ? 1.0f : 0.0f;
+    profile->second = 1.0f;
 }
 
 static float ramp_value(const struct profile *profile, uint64_t step)
@@ -79,13 +81,12 @@ static float ramp_value(const struct profile *profile, uint64_t step)
     return position > 0.0f ? profile->from + (profile->to - profile->from) * position : profile->from;
 }
 
-/* The sine sets in with the part of its first step that is left. */
+/* The sine sets in as a step does, with what it is worth at that time. */
 static float sine_value(const struct profile *profile, uint64_t step)
 {
     const uint64_t turns = step * profile->turns_per_step + (profile->turns_per_step >> 1);
-    const float swing = profile->to * fmath_sine_turns((uint32_t)(turns >> 32));
 
-    return profile->from + (step == profile->start ? swing * (1.0f - profile->start_fraction) : swing);
+    return profile->from + profile->to * fmath_sine_turns((uint32_t)(turns >> 32)) * share_at(profile, step);
 }
 
 float profile_moving_value(const struct profile *profile, uint64_t step)
@@ -99,7 +100,7 @@ float profile_moving_value(const struct profile *profile, uint64_t step)
     case PROFILE_SINE:
         return sine_value(profile, step);
     case PROFILE_STEP:
-        return step == profile->start ? profile->first : step == profile->start + 1u ? profile->second : profile->to;
+        return between(profile, share_at(profile, step));
     case PROFILE_CONSTANT:
     default:
         return profile->from;

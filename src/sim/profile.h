@@ -19,7 +19,7 @@ enum profile_kind { PROFILE_CONSTANT, PROFILE_STEP, PROFILE_RAMP, PROFILE_SINE }
 struct profile {
     enum profile_kind kind;
     float from, to;          /* sine: mean and amplitude */
-    float first, second;     /* step: values held over the step that contains the instant, and over the next */
+    float first, second;     /* share of the change in the step that contains t1, and in the next */
     uint32_t start;          /* whole steps before t1 */
     float start_fraction;    /* rest of t1, 0 to 1 step */
     float per_step;          /* ramp: 1/(t2 - t1) in steps */

@@ -9,10 +9,7 @@
 enum { V10_RATIO = 10 };
 
 /* Q4.27 of a value above -16, at most 15. */
-static int32_t to_q27(float value)
-{
-    return (int32_t)(fmath_min(value, 15.0f) * (float)(1 << PLANT_FRACTION_BITS));
-}
+static int32_t to_q27(float value) { return (int32_t)(fmath_min(value, 15.0f) * (float)(1 << PLANT_FRACTION_BITS)); }
 
 static struct detector_config detector_config(const struct params *params, const struct scale *scale)
 {

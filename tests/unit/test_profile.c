@@ -118,7 +118,8 @@ static void check_sine(void)
 static void check_exact_phase(void)
 {
     /* A frequency that is a power of two of the steps' rate is exact, so its phase never drifts. */
-    const struct profile profile = {.kind = PROFILE_SINE, .to = 1.0f, .turns_per_step = UINT64_C(1) << 58};
+    const struct profile profile = {
+        .kind = PROFILE_SINE, .to = 1.0f, .first = 1.0f, .second = 1.0f, .turns_per_step = UINT64_C(1) << 58};
     const uint64_t late = UINT64_C(1) << 50;
     bool is_same = true;
 
