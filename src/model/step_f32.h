@@ -14,6 +14,7 @@ struct step_f32_coeffs {
     float damping, stiffness, friction, slope, floor; /* C, Z2, mu, eps, floor of mu */
     bool has_floor;
     bool is_naive;       /* RK4 on the raw sign, no stick: for comparison only */
+    bool may_be_plain;   /* neither naive nor a pad that lifts: most steps have nothing to locate */
     float output_length; /* 1/2^length_shift */
     struct normal_f32_coeffs normal;
 };
