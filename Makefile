@@ -36,6 +36,7 @@ UNIT_IMAGE := $(OUT_BOARD)/unit$(BOARD_SUFFIX)
 PROBE      := $(OUT_BOARD)/probe$(BOARD_SUFFIX)
 UNIT_HOST  := build/unit/host
 TOOL       := build/tools/squeal-tool
+ORACLE     := build/tests/oracle
 
 OBJECTS_IMAGE := $(SOURCES_IMAGE:%.c=$(OUT_BOARD)/%.o)
 OBJECTS_UNIT  := $(patsubst %.c,$(OUT_BOARD)/%.o,$(SOURCES) $(SOURCES_BOARD) $(UNIT_TESTS) tests/target/platform.c)
@@ -51,7 +52,7 @@ $(shell mkdir -p build && echo '$(BUILD_ID)' >build/build_id)
 endif
 
 # --- Rules ----------------------------------------------------------------------------------------------------------
-.PHONY: all run monitor test golden debug check size clean help setup host-image
+.PHONY: all run monitor test golden oracle debug check size clean help setup host-image
 .DELETE_ON_ERROR:
 
 all: $(IMAGE) ## build the firmware for BOARD (default mps2-an386)
@@ -95,6 +96,11 @@ $(TOOL): $(OBJECTS_TOOL)
 	$(call say,LD,$@)
 	$(Q)$(CC) $^ -o $@ -lm
 
+$(ORACLE): $(wildcard tests/oracle/*.[ch] tests/oracle/*.def) Makefile | setup
+	$(call say,CC,$@)
+	$(Q)mkdir -p $(@D)
+	$(Q)$(CC) -std=c99 -O2 -ffp-contract=off -Wall -Wextra -D_POSIX_C_SOURCE=200809L -o $@ $(filter %.c,$^) -lm
+
 # --- Use ------------------------------------------------------------------------------------------------------------
 COMMAND    := $(strip $(BOARD_RUN) $(IMAGE))
 CASES      ?= tests/golden/paper.csv
@@ -116,9 +122,12 @@ golden: $(IMAGE) $(TOOL) ## run the cases of CASES= into OUT= (ARITH= SPP= NORMA
 	$(Q)$(TOOL) golden --cases $(CASES) --out $(OUT) --spp $(SPP) --normal $(NORMAL) --arith $(ARITH) \
 	    $(if $(ASYMPTOTIC),--asymptotic) --jobs 2 -- $(COMMAND)
 
-test: $(IMAGE) $(UNIT_IMAGE) $(PROBE) $(UNIT_HOST) $(TOOL) host-image ## run everything that a change must pass
+oracle: $(ORACLE) ## make golden rows for any parameters: the cases of CASES= into OUT=, by the reference solver
+	$(Q)$(ORACLE) --cases $(CASES) --out $(OUT) --jobs 2
+
+test: $(IMAGE) $(UNIT_IMAGE) $(PROBE) $(UNIT_HOST) $(TOOL) $(ORACLE) host-image ## run everything that a change must pass
 	$(Q)BOARD=$(BOARD) BOARD_RUN="$(BOARD_RUN)" IMAGE=$(IMAGE) UNIT_IMAGE=$(UNIT_IMAGE) PROBE=$(PROBE) \
-	    UNIT_HOST=$(UNIT_HOST) HOST_IMAGE=build/host/squeal TOOL=$(TOOL) tools/tap_summary $(wildcard tests/*.t tests/system/*.t)
+	    UNIT_HOST=$(UNIT_HOST) HOST_IMAGE=build/host/squeal TOOL=$(TOOL) ORACLE=$(CURDIR)/$(ORACLE) tools/tap_summary $(wildcard tests/*.t tests/system/*.t)
 
 host-image: $(if $(filter host,$(BOARD)),$(IMAGE))
 ifneq ($(BOARD),host)
@@ -139,6 +148,7 @@ check: $(IMAGE) ## check layers, forbidden symbols, documents and the formatting
 	$(Q)tools/check_layers
 	$(Q)tools/check_symbols $(IMAGE)
 	$(Q)tools/check_docs
+	$(Q)tools/gen_tables --check
 	$(Q)clang-format --dry-run -Werror $$(git ls-files '*.c' '*.h')
 
 size: $(IMAGE) ## print what the firmware takes: text and data in flash, data and bss in RAM, bytes

@@ -39,6 +39,7 @@ layers() { # name, file, its lines, complaint
     red "layers: $1" "$4" "$root/tools/check_layers" "$work/tree"
 }
 
+ok 'tables in documents are those of the code' tools/gen_tables --check
 ok 'layers hold' tools/check_layers
 layers 'an include against the arrow' src/model/a.c '#include "sim/b.h"' 'src/model/a.c:1: include against the arrow: sim/b.h'
 layers 'the hal below app' src/protocol/a.c '#include "hal_uart.h"' 'not for this layer: hal_uart.h'

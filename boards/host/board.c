@@ -241,7 +241,10 @@ size_t hal_uart_write(enum hal_uart port, const void *data, size_t size)
 /* A round of the main loop without hal_idle() must not hold the plant for ever. */
 static void tick_of_a_busy_round(void)
 {
-    if (!timer.has_ticked && timer.period_counts != 0u) {
+    /* Virtual time waits for a reader that does not keep up; real time does not. */
+    const bool may_tick = timer.is_realtime || !console.is_refused;
+
+    if (!timer.has_ticked && timer.period_counts != 0u && may_tick) {
         if (timer.is_realtime) {
             tick_all_due();
         } else {

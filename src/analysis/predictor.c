@@ -121,6 +121,20 @@ static bool normal_motion_ends(const struct params *params, const struct scale *
     return scale->normal_damping > 0.0f || (finish->load == 0.0f && (int)params->contact == CONTACT_LIFT);
 }
 
+/* An undamped pad that lifts off bounces for ever: its contact force is no longer a sine, and no closed form serves. */
+static bool bounces(const struct params *params, const struct finish *finish, float onset)
+{
+    return (int)params->contact == CONTACT_LIFT && finish->load > 0.0f && onset > finish->load;
+}
+
+/* Forced motion on the floor that reaches back across the knee, where friction falls and feeds it. */
+static bool crosses_knee(const struct scale *scale, const struct prediction *prediction, const struct finish *finish)
+{
+    const float slowest = finish->speed * (1.0f - prediction->touch_ratio);
+
+    return prediction->is_bistable && scale->friction + scale->friction_slope * slowest > scale->friction_floor;
+}
+
 static enum predictor_verdict judge(const struct prediction *prediction, const struct finish *finish)
 {
     if (finish->speed == 0.0f) {
@@ -153,6 +167,10 @@ struct prediction predictor_predict(const struct params *params, const struct sc
     }
     prediction.is_bistable = finish.is_on_floor && scale->damping + scale->friction_slope * finish.load < 0.0f;
     prediction.verdict = judge(&prediction, &finish);
+    if (prediction.verdict != PREDICTION_UNKNOWN &&
+        (bounces(params, &finish, onset) || crosses_knee(scale, &prediction, &finish))) {
+        prediction.verdict = PREDICTION_WATCH;
+    }
     return prediction;
 }
 
@@ -162,6 +180,10 @@ struct predictor_response predictor_response(const struct params *params, const 
     const float damping = scale->damping + finish.slope;
     const float friction = fmath_max(scale->friction, finish.friction);
     struct predictor_response response = {friction * transfer(scale, damping, 1.0f), 0.0f, 0.0f};
+
+    if (bounces(params, &finish, onset_amplitude(params, scale))) {
+        response.gain = RESPONSE_MAX;
+    }
 
     if ((int)params->load_profile == LOAD_SINE) {
         const float turns = params->load_frequency_hz * scale->step_s * (float)scale->steps_per_period;

@@ -15,27 +15,6 @@ struct parts {
     int exponent;
 };
 
-uint32_t fmath_bits(float value)
-{
-    const union {
-        float value;
-        uint32_t bits;
-    } view = {value};
-
-    return view.bits;
-}
-
-float fmath_from_bits(uint32_t bits)
-{
-    union {
-        float value;
-        uint32_t bits;
-    } view;
-
-    view.bits = bits;
-    return view.value;
-}
-
 bool fmath_is_finite(float value) { return (fmath_bits(value) & INFINITE) != INFINITE; }
 
 static struct parts take_apart(float positive)

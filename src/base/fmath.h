@@ -26,13 +26,43 @@ float fmath_log2(float value);
 int32_t fmath_round_i32(float value);
 
 /* The bits of a float, and back. */
-uint32_t fmath_bits(float value);
-float fmath_from_bits(uint32_t bits);
+static inline uint32_t fmath_bits(float value)
+{
+    uint32_t bits;
+
+    __builtin_memcpy(&bits, &value, sizeof bits);
+    return bits;
+}
+
+static inline float fmath_from_bits(uint32_t bits)
+{
+    float value;
+
+    __builtin_memcpy(&value, &bits, sizeof value);
+    return value;
+}
 
 /* Finite: neither infinite nor NaN. */
 bool fmath_is_finite(float value);
 
-static inline float fmath_abs(float value) { return value < 0.0f ? -value : value; }
+static inline float fmath_abs(float value) { return __builtin_fabsf(value); }
+/* value + change, where what rounding took away is kept in *rest and comes in again with the next change: a state that
+ * grows by small steps keeps their sum to twice the digits (Kahan). */
+static inline float fmath_add_kept(float value, float change, float *rest)
+{
+    const float wanted = change + *rest;
+    const float sum = value + wanted;
+
+    *rest = wanted - (sum - value);
+    return sum;
+}
+
+/* A 64-bit count as a float, error below one unit in the last place. The compiler's own conversion goes through double. */
+static inline float fmath_from_u64(uint64_t count)
+{
+    return (float)(uint32_t)(count >> 32) * 4294967296.0f + (float)(uint32_t)count;
+}
+
 static inline float fmath_max(float a, float b) { return a > b ? a : b; }
 static inline float fmath_min(float a, float b) { return a < b ? a : b; }
 

@@ -5,11 +5,11 @@
 #include "model/sine.h"
 
 /* Taylor series of order 9: below 1e-9 for the largest step of 0.4. It serves parts of a step and both states of
- * contact (spring 1 or 0), with or without damping. */
-static void taylor(float damping, float spring, float n, float duration, float *y, float *w)
+ * contact (spring 1 or 0), with or without damping. Gives the changes of y and w. */
+static void taylor(float damping, float spring, float n, float duration, float y, float w, float *dy, float *dw)
 {
-    const float d1 = *w;
-    const float d2 = n - damping * d1 - spring * *y;
+    const float d1 = w;
+    const float d2 = n - damping * d1 - spring * y;
     const float d3 = -damping * d2 - spring * d1;
     const float d4 = -damping * d3 - spring * d2;
     const float d5 = -damping * d4 - spring * d3;
@@ -26,18 +26,18 @@ static void taylor(float damping, float spring, float n, float duration, float *
     const float t7 = t * (1.0f / 7.0f);
     const float t8 = t * (1.0f / 8.0f);
 
-    *w = d1 + t * (d2 + t2 * (d3 + t3 * (d4 + t4 * (d5 + t5 * (d6 + t6 * (d7 + t7 * (d8 + t8 * d9)))))));
-    *y += t * (d1 + t2 * (d2 + t3 * (d3 + t4 * (d4 + t5 * (d5 + t6 * (d6 + t7 * (d7 + t8 * d8)))))));
+    *dw = t * (d2 + t2 * (d3 + t3 * (d4 + t4 * (d5 + t5 * (d6 + t6 * (d7 + t7 * (d8 + t8 * d9)))))));
+    *dy = t * (d1 + t2 * (d2 + t3 * (d3 + t4 * (d4 + t5 * (d5 + t6 * (d6 + t7 * (d7 + t8 * d8)))))));
 }
 
 /* With U the answer to a unit force from rest and S = U' that to a unit velocity, the map of (y, w) is
  * [1 - U, S; -S, 1 - U - Cn S]. The identity is taken off so that a coefficient's rounding costs only part of a step. */
 static struct normal_f32_map make_map(float damping, float duration)
 {
-    float u = 0.0f;
-    float s = 0.0f;
+    float u;
+    float s;
 
-    taylor(damping, 1.0f, 1.0f, duration, &u, &s);
+    taylor(damping, 1.0f, 1.0f, duration, 0.0f, 0.0f, &u, &s);
     return (struct normal_f32_map){-u, s, -s, -u - damping * s};
 }
 
@@ -63,6 +63,8 @@ void normal_f32_reset(struct normal_f32 *normal, const struct normal_f32_coeffs 
 {
     normal->y = y;
     normal->w = w;
+    normal->y_rest = 0.0f;
+    normal->w_rest = 0.0f;
     normal->n = n;
     normal->cosine = y - n;
     normal->sine = w;
@@ -104,8 +106,10 @@ static void look_rk4(const struct normal_f32 *normal, const struct normal_f32_co
     const float w4 = w1 + duration * a3;
     const float a4 = normal->n - coeffs->damping * w4 - spring * y4;
 
-    piece->y = y1 + sixth * (w1 + 2.0f * (w2 + w3) + w4);
-    piece->w = w1 + sixth * (a1 + 2.0f * (a2 + a3) + a4);
+    piece->dy = sixth * (w1 + 2.0f * (w2 + w3) + w4);
+    piece->dw = sixth * (a1 + 2.0f * (a2 + a3) + a4);
+    piece->y = y1 + piece->dy;
+    piece->w = w1 + piece->dw;
     piece->p1 = normal_f32_force(normal, y1);
     piece->p2 = normal_f32_force(normal, y2);
     piece->p3 = normal_f32_force(normal, y3);
@@ -115,25 +119,25 @@ static void look_rk4(const struct normal_f32 *normal, const struct normal_f32_co
 static void look_exact(const struct normal_f32 *normal, const struct normal_f32_coeffs *coeffs, float duration,
                        bool is_whole, struct normal_f32_piece *piece)
 {
-    float middle_y = normal->y;
-    float middle_w = normal->w;
+    float middle;
 
-    piece->y = normal->y;
-    piece->w = normal->w;
     if (is_whole && !normal->is_lifted) {
         const float d = normal->y - normal->n;
 
-        middle_y += coeffs->half.yy * d + coeffs->half.yw * normal->w;
-        piece->y += coeffs->full.yy * d + coeffs->full.yw * normal->w;
-        piece->w += coeffs->full.wy * d + coeffs->full.ww * normal->w;
+        middle = coeffs->half.yy * d + coeffs->half.yw * normal->w;
+        piece->dy = coeffs->full.yy * d + coeffs->full.yw * normal->w;
+        piece->dw = coeffs->full.wy * d + coeffs->full.ww * normal->w;
     } else {
         const float spring = normal->is_lifted ? 0.0f : 1.0f;
+        float unused;
 
-        taylor(coeffs->damping, spring, normal->n, 0.5f * duration, &middle_y, &middle_w);
-        taylor(coeffs->damping, spring, normal->n, duration, &piece->y, &piece->w);
+        taylor(coeffs->damping, spring, normal->n, 0.5f * duration, normal->y, normal->w, &middle, &unused);
+        taylor(coeffs->damping, spring, normal->n, duration, normal->y, normal->w, &piece->dy, &piece->dw);
     }
+    piece->y = normal->y + piece->dy;
+    piece->w = normal->w + piece->dw;
     piece->p1 = normal_f32_force(normal, normal->y);
-    piece->p2 = normal_f32_force(normal, middle_y);
+    piece->p2 = normal_f32_force(normal, normal->y + middle);
     piece->p3 = piece->p2;
     piece->p4 = normal_f32_force(normal, piece->y);
 }

@@ -9,6 +9,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 
+#include "base/fmath.h"
 #include "model/scale.h"
 
 struct normal_f32_map {
@@ -26,9 +27,10 @@ struct normal_f32_coeffs {
 };
 
 struct normal_f32 {
-    float y, w;         /* displacement and velocity */
-    float n;            /* brake force held over the present step */
-    float cosine, sine; /* y = n + cosine cos(phase) + sine sin(phase), where has_phase */
+    float y, w;           /* displacement and velocity */
+    float y_rest, w_rest; /* what rounding took from them so far */
+    float n;              /* brake force held over the present step */
+    float cosine, sine;   /* y = n + cosine cos(phase) + sine sin(phase), where has_phase */
     uint32_t phase;
     float least_force; /* the contact force is y, but never less than this: 0, or far below all y where it may pull */
     bool is_lifted;    /* spring off: contact lift and y < 0 */
@@ -38,6 +40,7 @@ struct normal_f32 {
 /* The normal force at the four stages of RK4 over one piece of a step, and the state at its end. */
 struct normal_f32_piece {
     float p1, p2, p3, p4;
+    float dy, dw; /* changes over the piece */
     float y, w;
 };
 
@@ -57,8 +60,8 @@ void normal_f32_look(const struct normal_f32 *normal, const struct normal_f32_co
 /* Moves to the end of a piece. */
 static inline void normal_f32_move(struct normal_f32 *normal, const struct normal_f32_piece *piece)
 {
-    normal->y = piece->y;
-    normal->w = piece->w;
+    normal->y = fmath_add_kept(normal->y, piece->dy, &normal->y_rest);
+    normal->w = fmath_add_kept(normal->w, piece->dw, &normal->w_rest);
 }
 
 /* Closes a whole step: puts the undamped exact solution back on its grid, holds a gap at its limit. Returns true if the

@@ -83,7 +83,7 @@ static struct params_problem check_fit(const struct params *params, const struct
         return blame(ERROR_OUT_OF_SCALE, "mu_s", 0.0f,
                      SCALE_FRICTION_MAX / scale->friction * params->friction_static_ratio);
     }
-    if (!(scale->friction_floor <= SCALE_FRICTION_MAX)) {
+    if (scale->has_floor && !(scale->friction_floor <= SCALE_FRICTION_MAX)) {
         return blame(ERROR_OUT_OF_SCALE, "mu_floor", -1e30f,
                      SCALE_FRICTION_MAX / scale->friction_floor * params->friction_floor_ratio);
     }

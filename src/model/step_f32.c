@@ -4,10 +4,12 @@
 #include "base/compiler.h"
 #include "base/fmath.h"
 #include "model/hermite_f32.h"
+#include "model/naive_f32.h"
+#include "model/output_f32.h"
+#include "model/slip_f32.h"
 
 #define DISPLACEMENT_MAX 4096.0f /* beyond it the plant has left its domain; in the model's units */
 #define NORMAL_MAX 64.0f
-#define OUTPUT_MAX 15.9999990f /* the largest that Q4.27 holds */
 
 /* What is left of the step, and what of it is to be reported. */
 struct progress {
@@ -18,58 +20,7 @@ struct progress {
     bool is_capped, is_lifted;
 };
 
-/* End of one slip piece. */
-struct slip_end {
-    float x, v;
-};
-
-static float signed_by(int8_t sign, float value) { return sign < 0 ? -value : value; }
-
-/* Signed friction coefficient at speed v while slipping to the side sign: s mu(|vr|) = s mu + eps vr, not below the floor.
- * Mirrored states give mirrored bits. */
-BASE_INLINE float signed_friction(const struct step_f32_coeffs *c, float disc, int8_t sign, float v, bool has_floor)
-{
-    const float signed_mu = signed_by(sign, c->friction) + c->slope * (disc - v);
-
-    return has_floor && signed_by(sign, signed_mu) < c->floor ? signed_by(sign, c->floor) : signed_mu;
-}
-
-BASE_INLINE float acceleration_at(const struct step_f32_coeffs *c, float disc, int8_t sign, float x, float v, float p,
-                                  bool has_floor)
-{
-    return signed_friction(c, disc, sign, v, has_floor) * p - c->damping * v - c->stiffness * x;
-}
-
-/* x'' in slip with the sign of vr given. */
-static float acceleration(const struct step_f32_coeffs *c, float disc, int8_t sign, float x, float v, float p)
-{
-    return acceleration_at(c, disc, sign, x, v, p, c->has_floor);
-}
-
-/* RK4 over one piece, from the acceleration at its start. */
-BASE_INLINE void slip_as(const struct step_f32 *s, const struct step_f32_coeffs *c,
-                         const struct normal_f32_piece *piece, float duration, float a1, struct slip_end *end,
-                         bool has_floor)
-{
-    const float half = 0.5f * duration;
-    const float sixth = duration * (1.0f / 6.0f);
-    const float disc = s->disc;
-    const int8_t sign = s->mode;
-    const float x1 = s->x;
-    const float v1 = s->v;
-    const float x2 = x1 + half * v1;
-    const float v2 = v1 + half * a1;
-    const float a2 = acceleration_at(c, disc, sign, x2, v2, piece->p2, has_floor);
-    const float x3 = x1 + half * v2;
-    const float v3 = v1 + half * a2;
-    const float a3 = acceleration_at(c, disc, sign, x3, v3, piece->p3, has_floor);
-    const float x4 = x1 + duration * v3;
-    const float v4 = v1 + duration * a3;
-    const float a4 = acceleration_at(c, disc, sign, x4, v4, piece->p4, has_floor);
-
-    end->x = x1 + sixth * (v1 + 2.0f * (v2 + v3) + v4);
-    end->v = v1 + sixth * (a1 + 2.0f * (a2 + a3) + a4);
-}
+static void move_x(struct step_f32 *s, float dx) { s->x = fmath_add_kept(s->x, dx, &s->x_rest); }
 
 static void slip(const struct step_f32 *s, const struct step_f32_coeffs *c, const struct normal_f32_piece *piece,
                  float duration, float a1, struct slip_end *end)
@@ -124,6 +75,22 @@ static void advance(struct step_f32 *s, struct progress *progress, const struct 
     progress->is_whole = false;
 }
 
+/* A curve that stays above its first tangent stays above 0 when the tangent does: the usual case, decided cheaply. */
+BASE_INLINE bool stays_clear(float vr_start, float slope, float vr_end)
+{
+    return vr_end >= 0.0f && (slope >= 0.0f || vr_start + slope > 0.0f || vr_start <= 0.0f);
+}
+
+/* What friction could hold beyond what it must, if the pad stuck at x under the contact force p; *side is where it would
+ * slip. */
+BASE_INLINE float stick_spare(const struct step_f32 *s, const struct step_f32_coeffs *c, float x, float p, int8_t *side)
+{
+    const float need = c->damping * s->disc + c->stiffness * x;
+
+    *side = need > 0.0f ? PLANT_SLIP_PLUS : PLANT_SLIP_MINUS;
+    return c->friction * p - signed_by(*side, need);
+}
+
 /* Looks for vr = 0 in a slip piece, also for a dip below 0 and back. Returns the place in (0, 1], 0 for "at the start",
  * or a negative number for "not in this piece". */
 static float find_crossing(const struct step_f32 *s, const struct step_f32_coeffs *c,
@@ -137,12 +104,11 @@ static float find_crossing(const struct step_f32 *s, const struct step_f32_coeff
     float p_end;
     float d1;
 
-    /* A curve that stays above its first tangent stays above 0 when the tangent does: the usual case, decided cheaply. */
-    if (f1 >= 0.0f && (d0 >= 0.0f || f0 + d0 > 0.0f || f0 <= 0.0f)) {
+    if (stays_clear(f0, d0, f1)) {
         return -1.0f;
     }
     p_end = normal_f32_force(&s->normal, piece->y);
-    d1 = -signed_by(s->mode, acceleration(c, s->disc, s->mode, end->x, end->v, p_end)) * duration;
+    d1 = -signed_by(s->mode, acceleration(c, s->disc, s->mode, s->x + end->dx, end->v, p_end)) * duration;
     vr = hermite_f32_make(f0, d0, f1, d1);
     if (f1 >= 0.0f) {
         if (d1 <= 0.0f) {
@@ -174,7 +140,7 @@ static void slip_piece(struct step_f32 *s, const struct step_f32_coeffs *c, stru
     }
     if (BASE_LIKELY(!(place >= 0.0f))) { /* NaN goes on too, to be caught by the domain check */
         advance(s, progress, piece, duration);
-        s->x = end.x;
+        move_x(s, end.dx);
         s->v = end.v;
         return;
     }
@@ -185,7 +151,7 @@ static void slip_piece(struct step_f32 *s, const struct step_f32_coeffs *c, stru
         normal_f32_look(&s->normal, &c->normal, part, false, piece);
         slip(s, c, piece, part, a1, &end);
         advance(s, progress, piece, part);
-        s->x = end.x;
+        move_x(s, end.dx);
     }
     s->v = s->disc;
     s->mode = regime_at_rest(s, c, 0.0f);
@@ -200,10 +166,9 @@ static float force_rate(const struct normal_f32 *normal, float y, float w)
 static void stick_piece(struct step_f32 *s, const struct step_f32_coeffs *c, struct progress *progress,
                         struct normal_f32_piece *piece, float duration)
 {
-    const float x_end = s->x + s->disc * duration;
-    const float need_end = c->damping * s->disc + c->stiffness * x_end;
-    const int8_t side = need_end > 0.0f ? PLANT_SLIP_PLUS : PLANT_SLIP_MINUS;
-    const float spare_end = c->friction * normal_f32_force(&s->normal, piece->y) - signed_by(side, need_end);
+    const float dx = s->disc * duration;
+    int8_t side;
+    const float spare_end = stick_spare(s, c, s->x + dx, normal_f32_force(&s->normal, piece->y), &side);
     float need_start;
     float spare_start;
     float part = 0.0f;
@@ -211,7 +176,7 @@ static void stick_piece(struct step_f32 *s, const struct step_f32_coeffs *c, str
     if (BASE_LIKELY(spare_end >= 0.0f) || progress->events == PLANT_EVENTS_MAX) {
         progress->is_capped = progress->is_capped || spare_end < 0.0f;
         advance(s, progress, piece, duration);
-        s->x = x_end;
+        move_x(s, dx);
         return;
     }
     progress->events++;
@@ -228,7 +193,7 @@ static void stick_piece(struct step_f32 *s, const struct step_f32_coeffs *c, str
     }
     if (part > 0.0f) {
         normal_f32_look(&s->normal, &c->normal, part, false, piece);
-        s->x += s->disc * part;
+        move_x(s, s->disc * part);
         advance(s, progress, piece, part);
     }
     s->mode = side;
@@ -267,6 +232,7 @@ static void change_contact(struct step_f32 *s, const struct step_f32_coeffs *c, 
 {
     progress->contacts++;
     s->normal.y = 0.0f;
+    s->normal.y_rest = 0.0f;
     s->normal.is_lifted = s->normal.w < 0.0f;
     if (s->normal.is_lifted && s->mode == PLANT_STICK) {
         s->mode = regime_at_rest(s, c, 0.0f);
@@ -299,48 +265,6 @@ static void event_step(struct step_f32 *s, const struct step_f32_coeffs *c, stru
     }
 }
 
-/* The sign of vr afresh at every stage, 0 at vr = 0, and no stick. */
-static float naive_acceleration(const struct step_f32_coeffs *c, float disc, float x, float v, float p)
-{
-    const int8_t sign = (int8_t)((disc > v) - (disc < v));
-
-    return sign == 0 ? -c->damping * v - c->stiffness * x : acceleration(c, disc, sign, x, v, p);
-}
-
-static void naive_step(struct step_f32 *s, const struct step_f32_coeffs *c, struct progress *progress)
-{
-    const float h = progress->rest;
-    struct normal_f32_piece piece;
-    float a1, a2, a3, a4, v2, v3, v4;
-
-    normal_f32_look(&s->normal, &c->normal, h, true, &piece);
-    a1 = naive_acceleration(c, s->disc, s->x, s->v, piece.p1);
-    v2 = s->v + 0.5f * h * a1;
-    a2 = naive_acceleration(c, s->disc, s->x + 0.5f * h * s->v, v2, piece.p2);
-    v3 = s->v + 0.5f * h * a2;
-    a3 = naive_acceleration(c, s->disc, s->x + 0.5f * h * v2, v3, piece.p3);
-    v4 = s->v + h * a3;
-    a4 = naive_acceleration(c, s->disc, s->x + h * v3, v4, piece.p4);
-    s->x += h * (1.0f / 6.0f) * (s->v + 2.0f * (v2 + v3) + v4);
-    s->v += h * (1.0f / 6.0f) * (a1 + 2.0f * (a2 + a3) + a4);
-    s->mode = (int8_t)((s->disc > s->v) - (s->disc < s->v));
-    advance(s, progress, &piece, h);
-    progress->is_lifted = s->normal.y < 0.0f;
-    if (c->normal.contact == CONTACT_LIFT && !s->normal.is_steady_from_rest) {
-        s->normal.is_lifted = s->normal.y < 0.0f;
-    }
-}
-
-/* Q4.27, saturating; a NaN comes out as 0 and is flagged. */
-static int32_t to_q27(float value, bool *is_saturated)
-{
-    if (!(value <= OUTPUT_MAX && value >= -OUTPUT_MAX)) {
-        *is_saturated = true;
-        return value > OUTPUT_MAX ? INT32_MAX : value < -OUTPUT_MAX ? -INT32_MAX : 0;
-    }
-    return (int32_t)(value * (float)(1 << PLANT_FRACTION_BITS));
-}
-
 static uint32_t to_share(float part, float whole)
 {
     const float share = part / whole;
@@ -350,12 +274,8 @@ static uint32_t to_share(float part, float whole)
 
 void step_f32_report(const struct step_f32 *s, const struct step_f32_coeffs *c, struct plant_output *output)
 {
-    *output = (struct plant_output){.mode = s->mode};
-    output->x = to_q27(s->x * c->output_length, &output->is_saturated);
-    output->v = to_q27(s->v, &output->is_saturated);
-    output->y = to_q27(s->normal.y, &output->is_saturated);
-    output->w = to_q27(s->normal.w, &output->is_saturated);
-    output->disc = to_q27(s->disc, &output->is_saturated);
+    *output = (struct plant_output){0};
+    report_state(s, c, output);
 }
 
 static void report_progress(const struct step_f32_coeffs *c, const struct progress *progress,
@@ -377,6 +297,7 @@ void step_f32_configure(struct step_f32_coeffs *coeffs, const struct params *par
     coeffs->floor = scale->friction_floor;
     coeffs->has_floor = scale->has_floor;
     coeffs->is_naive = (int)params->tangential_method == METHOD_NAIVE;
+    coeffs->may_be_plain = !coeffs->is_naive && (int)params->contact != CONTACT_LIFT;
     coeffs->output_length = 1.0f / (float)(1u << scale->length_shift);
     normal_f32_configure(&coeffs->normal, params, scale);
 }
@@ -385,6 +306,7 @@ void step_f32_reset(struct step_f32 *state, const struct step_f32_coeffs *coeffs
                     const struct scale *scale, struct step_f32_input first)
 {
     state->x = params->x_initial_m / scale->length_m;
+    state->x_rest = 0.0f;
     state->v = params->xd_initial_m_per_s / scale->speed_m_per_s;
     normal_f32_reset(&state->normal, &coeffs->normal, params->y_initial_m / scale->normal_m,
                      params->yd_initial_m_per_s / (scale->normal_m * scale->omega_rad_per_s), first.load);
@@ -393,27 +315,75 @@ void step_f32_reset(struct step_f32 *state, const struct step_f32_coeffs *coeffs
     set_speed(state, coeffs, first.speed);
 }
 
+/* The usual step: no switch of regime, no change of contact. False, and nothing done, where there is more to it. */
+BASE_INLINE bool plain_step(struct step_f32 *s, const struct step_f32_coeffs *c, struct plant_output *output)
+{
+    const float h = c->normal.step;
+    struct normal_f32_piece piece;
+    struct slip_end end;
+
+    normal_f32_look(&s->normal, &c->normal, h, true, &piece);
+    if (s->mode == PLANT_STICK) {
+        int8_t side;
+
+        end = (struct slip_end){s->disc * h, s->v};
+        if (stick_spare(s, c, s->x + end.dx, normal_f32_force(&s->normal, piece.y), &side) < 0.0f) {
+            return false;
+        }
+    } else {
+        const float a1 = acceleration(c, s->disc, s->mode, s->x, s->v, piece.p1);
+
+        slip(s, c, &piece, h, a1, &end);
+        if (!stays_clear(signed_by(s->mode, s->disc - s->v), -signed_by(s->mode, a1) * h,
+                         signed_by(s->mode, s->disc - end.v))) {
+            return false;
+        }
+    }
+    move_x(s, end.dx);
+    s->v = end.v;
+    normal_f32_move(&s->normal, &piece);
+    (void)normal_f32_close_step(&s->normal, &c->normal); /* no gap to hold: this pad does not lift */
+    report_state(s, c, output);
+    output->stick = s->mode == PLANT_STICK ? PLANT_SHARE_ONE : 0u;
+    output->slip_minus = s->mode == PLANT_SLIP_MINUS ? PLANT_SHARE_ONE : 0u;
+    output->events = 0u;
+    output->is_capped = false;
+    output->is_lifted = s->normal.y < 0.0f;
+    output->is_gap_held = false;
+    return true;
+}
+
+/* Any other step, piece by piece. */
+static BASE_NOINLINE void full_step(struct step_f32 *s, const struct step_f32_coeffs *c, struct plant_output *output)
+{
+    struct progress progress = {c->normal.step, true, 0.0f, 0.0f, 0u, 0u, false, false};
+    bool is_gap_held;
+
+    if (c->is_naive) {
+        naive_f32_step(s, c);
+        progress.slip_minus = s->mode == PLANT_SLIP_MINUS ? c->normal.step : 0.0f;
+        progress.is_lifted = s->normal.y < 0.0f;
+    } else {
+        event_step(s, c, &progress);
+    }
+    is_gap_held = normal_f32_close_step(&s->normal, &c->normal);
+    report_state(s, c, output);
+    report_progress(c, &progress, output);
+    output->is_gap_held = is_gap_held;
+}
+
 void step_f32_advance(struct step_f32 *state, const struct step_f32_coeffs *coeffs, struct step_f32_input input,
                       struct plant_output *output)
 {
-    struct progress progress = {coeffs->normal.step, true, 0.0f, 0.0f, 0u, 0u, false, false};
-    bool is_gap_held;
-
     if (input.load != state->normal.n) {
         normal_f32_set_load(&state->normal, &coeffs->normal, input.load);
     }
     if (input.speed != state->disc) {
         set_speed(state, coeffs, input.speed);
     }
-    if (coeffs->is_naive) {
-        naive_step(state, coeffs, &progress);
-    } else {
-        event_step(state, coeffs, &progress);
+    if (!coeffs->may_be_plain || !plain_step(state, coeffs, output)) {
+        full_step(state, coeffs, output);
     }
-    is_gap_held = normal_f32_close_step(&state->normal, &coeffs->normal);
-    step_f32_report(state, coeffs, output);
-    report_progress(coeffs, &progress, output);
-    output->is_gap_held = is_gap_held;
 }
 
 float step_f32_friction(const struct step_f32 *state, const struct step_f32_coeffs *coeffs)

@@ -14,6 +14,7 @@ struct step_f32_coeffs {
     float damping, stiffness, friction, slope, floor; /* C, Z2, mu, eps, floor of mu */
     bool has_floor;
     bool is_naive;       /* RK4 on the raw sign, no stick: for comparison only */
+    bool may_be_plain;   /* neither naive nor a pad that lifts: most steps have nothing to locate */
     float output_length; /* 1/2^length_shift */
     struct normal_f32_coeffs normal;
 };
@@ -24,9 +25,10 @@ struct step_f32_input {
 };
 
 struct step_f32 {
-    float x, v;  /* displacement and velocity of the pad along the disc */
-    float disc;  /* disc speed held over the present step */
-    int8_t mode; /* enum plant_mode */
+    float x, v;   /* displacement and velocity of the pad along the disc */
+    float x_rest; /* what rounding took from x so far: without it an equilibrium rustles at 1e-5 of x */
+    float disc;   /* disc speed held over the present step */
+    int8_t mode;  /* enum plant_mode */
     struct normal_f32 normal;
 };
 

@@ -15,7 +15,10 @@ static const struct command {
 #undef COMMAND
 };
 
-enum { PERIODS_MAX = 1000000 };
+enum {
+    PERIODS_MAX = 1000000,
+    HELP_COLUMN = 19 /* of what a command does, where its arguments leave it free */
+};
 
 static const struct command *find_command(struct token name)
 {
@@ -47,11 +50,17 @@ static void answer_plain(struct console *console)
 
 static void tell_command(struct console *console, const struct command *command)
 {
+    size_t start;
+
     console_begin_body(console);
+    start = console->text->head;
     text_write(console->text, command->name);
     text_write(console->text, command->arguments[0] != '\0' ? " " : "");
     text_write(console->text, command->arguments);
     text_write(console->text, "  ");
+    while (console->text->head - start < HELP_COLUMN) {
+        text_put(console->text, ' ');
+    }
     text_write(console->text, command->help);
     console_end(console);
 }
@@ -160,8 +169,7 @@ static bool read_count(struct console *console, uint32_t high, uint32_t *count)
     }
     if (!token_number(word, 1u, high, count)) {
         console_begin_error(console, ERROR_OUT_OF_RANGE);
-        text_put(console->text, ' ');
-        text_write(console->text, word.start);
+        text_key_text(console->text, token_is(token_first(console->command), "step") ? "n" : "periods", word.start);
         text_write(console->text, ": 1 .. ");
         text_u64(console->text, high);
         text_write(console->text, ", a whole number");

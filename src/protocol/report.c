@@ -39,7 +39,7 @@ static float metres_per_s(const struct scale *scale)
     return scale->speed_m_per_s / (float)(1 << PLANT_FRACTION_BITS);
 }
 
-static float range(int32_t high, int32_t low) { return (float)((int64_t)high - low); }
+static float range(int32_t high, int32_t low) { return (float)(uint32_t)((int64_t)high - low); }
 
 static float share(uint32_t part) { return (float)part / (float)PLANT_SHARE_ONE; }
 
@@ -64,13 +64,13 @@ static float frequency(const struct detector_verdict *verdict, const struct scal
     if (verdict->motion == CLASS_REST || verdict->cycles == 0u || verdict->cycle_steps_q15 == 0u) {
         return NOT_A_NUMBER;
     }
-    return (float)verdict->cycles * 32768.0f / (float)verdict->cycle_steps_q15 / scale->step_s;
+    return (float)verdict->cycles * 32768.0f / fmath_from_u64(verdict->cycle_steps_q15) / scale->step_s;
 }
 
 static void judge_motion(struct report_verdict *judged, const struct detector_verdict *verdict,
                          const struct scale *scale)
 {
-    const float rms = fmath_sqrt((float)verdict->variance) / 65536.0f * scale->speed_m_per_s;
+    const float rms = fmath_sqrt(fmath_from_u64(verdict->variance)) / 65536.0f * scale->speed_m_per_s;
     const float hz = frequency(verdict, scale);
 
     judged->amplitude_um = 0.5e6f * range(verdict->x_max, verdict->x_min) * metres(scale);
@@ -158,7 +158,7 @@ void report_write_verdict(struct text *text, const struct executive_report *repo
     const struct report_verdict judged = report_judge(report, plan);
     const struct scale *scale = &plan->scale;
     const struct params *params = &plan->params;
-    const float v10_steps = (float)report->v10_step + (float)report->v10_fraction_q15 / 32768.0f;
+    const float v10_steps = fmath_from_u64(report->v10_step) + (float)report->v10_fraction_q15 / 32768.0f;
 
     text_key_text(text, "propensity", detector_propensity_name(judged.propensity));
     write_class(text, &judged);

@@ -43,7 +43,7 @@ static void write_loss(struct text *text, const struct sim_plan *plan)
 
 static void write_load(struct text *text, const struct executive_load *load)
 {
-    report_field(text, "isr_share", (float)load->busy_sum / ((float)load->ticks * (float)load->period));
+    report_field(text, "isr_share", fmath_from_u64(load->busy_sum) / ((float)load->ticks * (float)load->period));
     report_field(text, "isr_share_max", (float)load->busy_max / (float)load->period);
     text_key_u64(text, "ticks", load->ticks);
     text_key_u64(text, "overruns", load->overruns);
@@ -99,7 +99,7 @@ void status_write(struct text *text, const struct console *console, const struct
     text_key_product(text, "t", report->now.step, plan->scale.step_s, DECIMAL_DIGITS_EXACT);
     text_key_u64(text, "generation", report->generation);
     write_method(text, plan);
-    text_key_u64(text, "substeps", (uint64_t)params->steps_per_tick);
+    text_key_u64(text, "substeps", (uint32_t)params->steps_per_tick);
     text_key_shortest(text, "tick", params->tick_hz);
     report_field(text, "sigma", params->tick_hz * params->steps_per_tick * plan->scale.step_s);
     write_loss(text, plan);

@@ -10,7 +10,8 @@ enum {
     TELEPLOT_FRAME = 8,  /* >, two colons, the two bytes of the paragraph sign or |t, CR LF */
     TELEPLOT_PHASE = 18, /* >phase::|xy, CR LF and something to spare */
     TELEPLOT_TIME = 16,
-    TELEPLOT_UNIT = 4
+    TELEPLOT_UNIT = 4,
+    MS_PER_S = 1000
 };
 
 void stream_init(struct stream *stream) { *stream = (struct stream){.setup = {.form = STREAM_OFF}}; }
@@ -220,7 +221,7 @@ static void write_series(struct text *text, enum signal signal, const struct sam
     text_put(text, '>');
     text_write(text, info->name);
     text_put(text, ':');
-    text_product(text, sample->step, scale->step_s * 1000.0f, DECIMAL_DIGITS_EXACT);
+    text_product(text, sample->step * MS_PER_S, scale->step_s, DECIMAL_DIGITS_EXACT);
     text_put(text, ':');
     signals_append(text, signal, sample, scale, contact);
     if (info->form == SIGNAL_FORM_WORD || info->form == SIGNAL_FORM_BITS) {

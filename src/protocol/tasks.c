@@ -22,6 +22,22 @@ void console_begin_steps(struct console *console, uint64_t steps)
     console->steps.reached = report.now.step;
 }
 
+/* No more at a time than the samples of which fit between interrupt and main: whoever grants steps loses none. */
+static void grant(struct console *console, uint32_t slice)
+{
+    const struct stream_setup *setup = &console->stream.setup;
+    const uint64_t sampled = (uint64_t)setup->every * EXECUTIVE_SAMPLES;
+    struct console_steps *steps = &console->steps;
+    uint32_t count = steps->left < slice ? (uint32_t)steps->left : slice;
+
+    if (setup->form != STREAM_OFF && sampled < count) {
+        count = (uint32_t)sampled;
+    }
+    steps->left -= count;
+    steps->reached += count;
+    executive_grant(console->executive, count);
+}
+
 enum console_progress console_go_on(struct console *console, uint32_t slice, struct executive_report *report)
 {
     struct executive *executive = console->executive;
@@ -38,15 +54,14 @@ enum console_progress console_go_on(struct console *console, uint32_t slice, str
     if (executive_credit(executive) != 0u || report->now.step != steps->reached) {
         return CONSOLE_WAITS;
     }
-    if (steps->left > 0u) {
-        const uint32_t grant = steps->left < slice ? (uint32_t)steps->left : slice;
-
-        steps->left -= grant;
-        steps->reached += grant;
-        executive_grant(executive, grant);
-        return CONSOLE_ADVANCES;
+    if (stream_has_sample(executive)) {
+        return CONSOLE_WAITS;
     }
-    return stream_has_sample(executive) ? CONSOLE_WAITS : CONSOLE_IS_DONE;
+    if (steps->left == 0u) {
+        return CONSOLE_IS_DONE;
+    }
+    grant(console, slice);
+    return CONSOLE_ADVANCES;
 }
 
 void console_refuse_fault(struct console *console)

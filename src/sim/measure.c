@@ -2,6 +2,7 @@
 #include "sim/measure.h"
 
 #include "base/fixed.h"
+#include "base/fmath.h"
 #include "sim/extremum.h"
 
 void measure_start(struct measure *measure, const struct plant_output *now, uint64_t steps, int32_t step_q27)
@@ -91,10 +92,10 @@ float measure_frequency(const struct measure *measure)
     if (measure->crossings < 2u || measure->last_q15 == measure->first_q15) {
         return 0.0f;
     }
-    return (float)(measure->crossings - 1u) * 32768.0f / (float)(measure->last_q15 - measure->first_q15);
+    return (float)(measure->crossings - 1u) * 32768.0f / fmath_from_u64(measure->last_q15 - measure->first_q15);
 }
 
 float measure_share(const struct measure *measure, uint64_t sum)
 {
-    return measure->done == 0u ? 0.0f : (float)sum / ((float)measure->done * (float)PLANT_SHARE_ONE);
+    return measure->done == 0u ? 0.0f : fmath_from_u64(sum) / (fmath_from_u64(measure->done) * (float)PLANT_SHARE_ONE);
 }

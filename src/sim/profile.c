@@ -13,17 +13,43 @@ static void set_times(struct profile *profile, float start_s, float end_s, const
     const float start = in_steps(start_s, scale);
     const float length = in_steps(end_s - start_s, scale);
 
-    profile->start = (uint32_t)(profile->kind == PROFILE_STEP ? start + 0.5f : start);
+    profile->start = (uint32_t)start;
     profile->start_fraction = start - (float)profile->start;
     profile->per_step = length > 0.0f ? 1.0f / length : 0.0f;
 }
 
+/* A ramp without length is a step. */
+static void jump_if_sudden(struct profile *profile)
+{
+    if (profile->kind == PROFILE_RAMP && profile->per_step == 0.0f) {
+        profile->kind = PROFILE_STEP;
+    }
+}
+
+/* The last value itself where the share is whole: rounded by a bit it would be a change of the load later on. */
+static float between(const struct profile *profile, float share)
+{
+    return share == 1.0f ? profile->to : profile->from + (profile->to - profile->from) * share;
+}
+
+/* How much of a change at t1 counts in this step, which is not before it. */
+static float share_at(const struct profile *profile, uint64_t step)
+{
+    return step == profile->start ? profile->first : step == profile->start + 1u ? profile->second : 1.0f;
+}
+
 void profile_load(struct profile *profile, const struct params *params, const struct scale *scale)
 {
+    float late;
+
     profile->kind = (enum profile_kind)(int)params->load_profile;
     profile->from = params->load_n / scale->load_n;
     profile->to = params->load_end_n / scale->load_n;
     set_times(profile, params->load_start_s, params->load_end_s, scale);
+    jump_if_sudden(profile);
+    late = profile->start_fraction;
+    profile->first = 0.5f * (2.0f - late) * (1.0f - late);
+    profile->second = 0.5f * (2.0f - late) * (1.0f + late);
     if (profile->kind == PROFILE_SINE) {
         const float turns = params->load_frequency_hz * scale->step_s;
         const uint32_t whole = (uint32_t)turns;
@@ -40,6 +66,9 @@ void profile_speed(struct profile *profile, const struct params *params, const s
     profile->from = params->speed_m_per_s / scale->speed_m_per_s;
     profile->to = params->speed_end_m_per_s / scale->speed_m_per_s;
     set_times(profile, params->speed_start_s, params->speed_end_s, scale);
+    jump_if_sudden(profile);
+    profile->first = profile->start_fraction < 0.5f ? 1.0f : 0.0f;
+    profile->second = 1.0f;
 }
 
 static float ramp_value(const struct profile *profile, uint64_t step)
@@ -47,10 +76,18 @@ static float ramp_value(const struct profile *profile, uint64_t step)
     const uint64_t passed = step - profile->start;
     const float position = ((float)(uint32_t)passed + (0.5f - profile->start_fraction)) * profile->per_step;
 
-    if (passed > (uint64_t)STEPS_MAX || profile->per_step == 0.0f || position >= 1.0f) {
+    if (passed > (uint64_t)STEPS_MAX || position >= 1.0f) {
         return profile->to;
     }
     return position > 0.0f ? profile->from + (profile->to - profile->from) * position : profile->from;
+}
+
+/* The sine sets in as a step does, with what it is worth at that time. */
+static float sine_value(const struct profile *profile, uint64_t step)
+{
+    const uint64_t turns = step * profile->turns_per_step + (profile->turns_per_step >> 1);
+
+    return profile->from + profile->to * fmath_sine_turns((uint32_t)(turns >> 32)) * share_at(profile, step);
 }
 
 float profile_moving_value(const struct profile *profile, uint64_t step)
@@ -61,15 +98,13 @@ float profile_moving_value(const struct profile *profile, uint64_t step)
     switch (profile->kind) {
     case PROFILE_RAMP:
         return ramp_value(profile, step);
-    case PROFILE_SINE: {
-        const uint64_t turns = step * profile->turns_per_step + (profile->turns_per_step >> 1);
-
-        return profile->from + profile->to * fmath_sine_turns((uint32_t)(turns >> 32));
-    }
-    case PROFILE_CONSTANT:
+    case PROFILE_SINE:
+        return sine_value(profile, step);
     case PROFILE_STEP:
+        return between(profile, share_at(profile, step));
+    case PROFILE_CONSTANT:
     default:
-        return profile->to;
+        return profile->from;
     }
 }
 
@@ -134,7 +169,7 @@ bool profile_is_moving(const struct profile *profile, uint64_t step)
 {
     switch (profile->kind) {
     case PROFILE_STEP:
-        return step <= profile->start;
+        return step <= profile->start + 1u;
     case PROFILE_RAMP:
         return step <= profile->start || ramp_value(profile, step) != profile->to;
     case PROFILE_CONSTANT:

@@ -1,5 +1,10 @@
 /* Brake force and disc speed over time: the acting process. Times are in model steps since reset, values in the model's
- * units; a value is that of the middle of its step, t = (i + 1/2) h, and is held over it. */
+ * units; a value is that of the middle of its step, t = (i + 1/2) h, and is held over it.
+ *
+ * A load step inside a model step f h after its start is spread over two, so that its impulse and its first moment are
+ * those of the real one: n = from + (to - from) (2 - f)(1 - f)/2, then from + (to - from) (2 - f)(1 + f)/2. What remains
+ * is of third order in h; rounding the instant to the grid would leave up to h/2 of the change. The disc's speed changes
+ * at the nearest grid point. */
 #ifndef SIM_PROFILE_H
 #define SIM_PROFILE_H
 
@@ -14,7 +19,8 @@ enum profile_kind { PROFILE_CONSTANT, PROFILE_STEP, PROFILE_RAMP, PROFILE_SINE }
 struct profile {
     enum profile_kind kind;
     float from, to;          /* sine: mean and amplitude */
-    uint32_t start;          /* whole steps before t1; the step's instant is rounded to the nearest */
+    float first, second;     /* share of the change in the step that contains t1, and in the next */
+    uint32_t start;          /* whole steps before t1 */
     float start_fraction;    /* rest of t1, 0 to 1 step */
     float per_step;          /* ramp: 1/(t2 - t1) in steps */
     uint64_t turns_per_step; /* sine: fraction of a turn in 2^-64 */

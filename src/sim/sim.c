@@ -70,6 +70,13 @@ static void reset_plant(struct sim *sim)
     }
 }
 
+/* Whatever leaves the domain leaves the output's range first, but for the speed, which has a limit inside it. */
+static bool may_be_outside(const struct plant_output *output)
+{
+    return output->is_saturated ||
+           fixed_abs(output->v) > (uint32_t)(SCALE_FAULT_SPEED * (float)(1 << PLANT_FRACTION_BITS)) - 1u;
+}
+
 /* Returns false when the plant has left its domain. */
 static bool advance_plant(struct sim *sim)
 {
@@ -80,7 +87,7 @@ static bool advance_plant(struct sim *sim)
         return !step_q27_is_outside(&sim->q27);
     }
     step_f32_advance(&sim->f32, &plan->f32, input_f32(plan, sim->step), &sim->output);
-    return !step_f32_is_outside(&sim->f32);
+    return !may_be_outside(&sim->output) || !step_f32_is_outside(&sim->f32);
 }
 
 /* The states as words, in the order in which they are hashed. */

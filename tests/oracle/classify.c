@@ -56,10 +56,11 @@ static int cycle_multiplicity(const struct window *window)
 
 static bool is_partial(double share) { return share > none && share < 1.0 - none; }
 
-static const char *name_aperiodic(bool has_events, double lle_per_period)
+/* What no number of normal periods repeats. A pad that bounces has a period of its own, which x then follows. */
+static const char *name_other(bool has_events, bool has_own_period, double lle_per_period)
 {
     if (!has_events) {
-        return "beating";
+        return has_own_period ? "locked-other" : "beating";
     }
     if (lle_per_period > lle_chaotic) {
         return "chaotic";
@@ -80,15 +81,15 @@ void classify_name(const struct window *window, int multiplicity, double lle_per
     const bool sticks = is_partial(window_share(window, window->stick_s));
     const bool crosses = is_partial(window_share(window, window->slip_minus_s));
     const bool is_steady = window->y_max - window->y_min <= same * fmax(fabs(window->y_max), fabs(window->y_min));
-    const int cycles = is_steady ? cycle_multiplicity(window) : 0;
+    const int cycles = cycle_multiplicity(window);
 
     if (window->x_max - window->x_min < none * unit) {
         snprintf(name, CLASSIFY_NAME_SIZE, "rest");
-    } else if (cycles > 0) {
-        snprintf(name, CLASSIFY_NAME_SIZE, "limitcycle-%s-p%d", sticks || crosses ? "stickslip" : "slip", cycles);
     } else if (multiplicity > 0) {
         snprintf(name, CLASSIFY_NAME_SIZE, "%s-p%d", sticks ? "stickslip" : crosses ? "cross" : "forced", multiplicity);
+    } else if (is_steady && cycles > 0) {
+        snprintf(name, CLASSIFY_NAME_SIZE, "limitcycle-%s-p%d", sticks || crosses ? "stickslip" : "slip", cycles);
     } else {
-        snprintf(name, CLASSIFY_NAME_SIZE, "%s", name_aperiodic(sticks || crosses, lle_per_period));
+        snprintf(name, CLASSIFY_NAME_SIZE, "%s", name_other(sticks || crosses, cycles > 0, lle_per_period));
     }
 }

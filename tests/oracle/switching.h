@@ -1,8 +1,8 @@
 /* The instants at which the plant's equations change, and what holds afterwards (Filippov's rules):
  *
- * at vr = 0 sticking needs the friction need = c v0 + (k+kt) x. If |need| <= mu_s P the pad sticks; otherwise it slips on
- * with the sign of need. Sticking ends when mu_s P falls below |need|. Static and kinetic friction are equal at vr = 0, so
- * there is no hysteresis. With P < 0 (bilateral contact that pulls) the pad can only cross. */
+ * at vr = 0 sticking needs the friction need = c v0 + (k+kt) x. If |need| <= mu_s P the pad sticks; otherwise it slips
+ * on with the sign of need. Sticking ends when mu_s P falls below |need|. Static and kinetic friction are equal at
+ * vr = 0, so there is no hysteresis. With P < 0 (bilateral contact that pulls) the pad can only cross. */
 #ifndef ORACLE_SWITCHING_H
 #define ORACLE_SWITCHING_H
 

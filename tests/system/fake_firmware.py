@@ -183,7 +183,7 @@ class Firmware:
             self.step += 1
             if self.every == 0 or self.step % self.every:
                 continue
-            if (self.options.gap or self.options.hide) and act == 2 and 1000 <= self.step < 1005:
+            if (self.options.gap or self.options.hide) and act == 2 and 300 <= self.step // self.every < 305:
                 self.drops += 1 if self.options.gap else 0
                 continue
             values = self.sample(self.step, act)

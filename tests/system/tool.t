@@ -141,7 +141,7 @@ def golden_tests(tap, folder):
     run = golden("--die", "echo")
     tap.ok(run.returncode == 1 and "0 passed, 8 failed" in run.stdout, "a firmware that dies at once", run)
     run = golden("--mute", "measure", more=("--limit", "1"))
-    tap.ok(run.returncode == 1 and "was silent for 1 s after 'measure 20'" in run.stderr, "a silent firmware", run)
+    tap.ok(run.returncode == 1 and "s after 'measure 20'" in run.stderr and "was silent for" in run.stderr, "a silent firmware", run)
     run = golden("--flood")
     tap.ok(run.returncode == 0, "a firmware that talks while it is talked to", run)
     run = tool("golden", "--cases", cases, "--out", out, "--", "no-such-program-at-all")
@@ -206,13 +206,15 @@ def run_tests(tap, folder):
 
     run = story()
     tap.ok(run.returncode == 0, "a story told to the end", run)
-    tap.ok("act 2: a fake brake is applied" in run.stdout and "frequency            2906.98 Hz" in run.stdout,
+    tap.ok("act 2: a fake brake is applied" in run.stdout and "frequency            2907 Hz" in run.stdout,
            "prints the device's words and verdict", run)
     with open(out + "/state.csv", newline="") as file:
         rows = list(csv.DictReader(file))
     second = [row for row in rows if row["act"] == "2"]
     tap.ok(list(rows[0]) == "act,step,t,x,xd,y,yd,N,F,vr,mode,propensity".split(","), "state.csv has the act before the signals")
-    tap.ok([int(row["step"]) for row in second] == list(range(1, len(second) + 1)), "and every step")
+    tap.ok([int(row["step"]) for row in second] == list(range(1, len(second) + 1)), "and every step of the act")
+    fifth = [int(row["step"]) for row in rows if row["act"] == "5"]
+    tap.ok(fifth == list(range(4, 4 * len(fifth) + 1, 4)), "or as many as its picture needs")
     with open(out + "/run.json") as file:
         record = json.load(file)
     act = record["acts"][0]
@@ -247,6 +249,8 @@ def run_tests(tap, folder):
     with open(out + "/run.json") as file:
         tap.ok(json.load(file)["emulator"].startswith("Python"), "an emulator is named by its own --version", run)
     run = story("--gap")
+    with open(out + "/run.json") as file:
+        tap.ok(json.load(file)["acts"][0]["samples_missing"] == 5, "gaps are recorded", run)
     tap.ok(run.returncode == 0 and "5 samples did not fit the line" in run.stdout, "lost and counted samples are told", run)
     run = story("--hide")
     tap.ok(run.returncode == 1 and "act 2: 5 samples are missing, the device counted 0" in run.stderr,
@@ -262,7 +266,7 @@ def run_tests(tap, folder):
     tap.ok(run.returncode == 1 and "exit code 3 during 'demo 5': fake: the kernel image is gone" in run.stderr,
            "a firmware that dies", run)
     run = story("--mute", "demo", more=("--limit", "1", "--acts", "1"))
-    tap.ok(run.returncode == 1 and "was silent for 1 s after 'demo 1'" in run.stderr, "a silent firmware", run)
+    tap.ok(run.returncode == 1 and "s after 'demo 1'" in run.stderr and "was silent for" in run.stderr, "a silent firmware", run)
 
     os.remove(out + "/state.csv")
     os.symlink("/dev/full", out + "/state.csv")

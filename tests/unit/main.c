@@ -3,8 +3,8 @@
 
 int unit_main(void)
 {
-#define TEST(module)                                                                                                   \
-    tap_module(#module);                                                                                               \
+#define TEST(module)     \
+    tap_module(#module); \
     test_##module();
 #include "tests.def"
 #undef TEST

@@ -22,7 +22,7 @@ void tap_module(const char *name);
 bool tap_check_at(bool ok, const char *claim, const char *file, unsigned line);
 
 /* One claim about a number: |actual - expected| <= tolerance, which NaN never fulfils. */
-#define tap_check_close(actual, expected, tolerance, claim)                                                            \
+#define tap_check_close(actual, expected, tolerance, claim) \
     tap_check_close_at((actual), (expected), (tolerance), (claim), __FILE__, __LINE__)
 bool tap_check_close_at(float actual, float expected, float tolerance, const char *claim, const char *file,
                         unsigned line);

@@ -9,10 +9,11 @@ enum { STEP_Q27 = 13176796 /* 2 pi/64 */ };
 
 #define ONE 134217728.0f
 
-/* x = mean + size sin(f t), v its derivative, 64 steps in a turn of f = 1; turn is f in 2^-32 turns a step. */
-static struct plant_output tone(float mean, float size, uint32_t turn, uint32_t step)
+/* x = mean + size sin(f t), v its derivative, 64 steps in a turn of f = 1; turn is f in 2^-32 turns a step, start the
+ * phase at the start. */
+static struct plant_output tone(float mean, float size, uint32_t turn, uint32_t start, uint32_t step)
 {
-    const uint32_t phase = 0x12345678u + turn * step;
+    const uint32_t phase = start + turn * step;
     const float ratio = (float)turn / 67108864.0f;
     struct plant_output output = {.mode = PLANT_SLIP_PLUS};
 
@@ -21,13 +22,13 @@ static struct plant_output tone(float mean, float size, uint32_t turn, uint32_t 
     return output;
 }
 
-static void run(struct measure *measure, float mean, float size, uint32_t turn, uint32_t steps)
+static void run(struct measure *measure, float mean, float size, uint32_t turn, uint32_t start, uint32_t steps)
 {
-    struct plant_output output = tone(mean, size, turn, 0u);
+    struct plant_output output = tone(mean, size, turn, start, 0u);
 
     measure_start(measure, &output, steps, STEP_Q27);
     for (uint32_t i = 1u; measure_is_active(measure); i++) {
-        output = tone(mean, size, turn, i);
+        output = tone(mean, size, turn, start, i);
         measure_push(measure, &output);
     }
 }
@@ -37,16 +38,20 @@ static void check_tone(void)
     const uint32_t turn = 46305082u; /* 0.69 of a turn in 64 steps */
     struct measure measure;
 
-    run(&measure, -0.3f, 0.8f, turn, 6400u);
+    run(&measure, -1.3f, 0.8f, turn, 0x40000000u, 6400u); /* starts at its maximum */
     tap_check(measure.done == 6400u && !measure_is_active(&measure), "it ends by itself");
-    tap_check_close((float)measure.x_max / ONE, 0.5f, 1e-6f, "largest displacement, between the samples");
-    tap_check_close((float)measure.x_min / ONE, -1.1f, 2e-6f, "smallest displacement");
+    tap_check_close((float)measure.x_max / ONE, -0.5f, 1e-6f, "largest displacement, between the samples");
+    tap_check_close((float)measure.x_min / ONE, -2.1f, 2e-6f, "smallest displacement");
     tap_check_close((float)measure.v_max / ONE, 0.552f, 2e-6f, "largest speed");
     tap_check_close((float)measure.v_min / ONE, -0.552f, 2e-6f, "smallest speed");
     tap_check_close(measure_frequency(&measure) * 64.0f, 0.69f, 2e-6f, "frequency");
     tap_check(measure.crossings == 34u || measure.crossings == 35u, "counted in the second half, around the middle");
     tap_check(measure_share(&measure, measure.stick) == 0.0f && measure_share(&measure, measure.slip_minus) == 0.0f,
               "all of it slip with the disc");
+    run(&measure, 0.0f, 0.8f, 1u << 26, 1u << 25, 640u); /* samples half a step beside each extreme */
+    tap_check_close((float)measure.x_max / ONE, 0.8f, 1e-6f, "a maximum that every sample misses");
+    tap_check_close((float)measure.x_min / ONE, -0.8f, 1e-6f, "a minimum too");
+    tap_check_close((float)measure.v_max / ONE, 0.8f, 1e-5f, "and the largest speed");
 }
 
 static void check_shares(void)

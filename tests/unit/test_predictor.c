@@ -92,12 +92,15 @@ static void check_brake(void)
 
 static void check_standstill(void)
 {
-    const struct prediction prediction = predict(plants_params("v0 0"));
+    struct prediction prediction = predict(plants_params("v0 0"));
 
     tap_check(prediction.verdict == PREDICTION_UNKNOWN && fmath_is_finite(prediction.touch_ratio),
               "a disc at rest is not predicted");
     tap_check(says("speed ramp tv2 5 v1 0", PREDICTION_UNKNOWN) && says("v0 0 speed step v1 1", PREDICTION_QUIET),
               "nor one that comes to rest, but one that starts is");
+    prediction = predict(plants_params("N0 1 alpha -0.1 mu_floor 0.25"));
+    tap_check_close(prediction.touch_ratio, 0.45636f, 1e-3f, "on the floor its friction moves the pad");
+    tap_check(says("N0 2 cn 0.1", PREDICTION_QUIET), "a damped normal oscillation does not last");
     tap_check(says("N0 0", PREDICTION_QUIET), "no load, no noise");
     tap_check(says("contact lift load step N0 4 N1 0 t1 5", PREDICTION_QUIET), "a pad let go does not come back");
 }

@@ -32,17 +32,32 @@ static void check_constant(void)
     tap_check(!profile_is_moving(&plan.load, 0u) && !profile_is_moving(&plan.speed, 0u), "which does not move");
 }
 
-/* h = 0.0981748 s: 10.4 steps are 1.0210176 s, 10.6 are 1.0406526 s. */
+/* h = 0.0981748 s: 10.45 steps are 1.0259264 s, 10.55 are 1.0357438 s. */
 static void check_step(void)
 {
-    plan_of(UNIT_SET "load step N0 2 N1 5 t1 1.0210176 speed step v0 1 v1 -2 tv1 1.0406526");
+    uint32_t state = 31u;
+    bool is_steady = true;
+
+    plan_of(UNIT_SET "load step N0 2 N1 5 t1 1.0259264 speed step v0 1 v1 -2 tv1 1.0357438");
     tap_check_close(load_at(9u), 2.0f, 1e-6f, "before its instant a step has the first value");
-    tap_check_close(load_at(10u), 5.0f, 2e-6f, "an instant 0.4 after a grid point is moved back to it");
-    tap_check_close(speed_at(10u), 1.0f, 1e-6f, "one 0.6 after it goes to the next");
+    tap_check_close(load_at(10u), 2.0f + 3.0f * 0.42625f, 3e-5f, "a load step 0.45 into a model step begins in it");
+    tap_check_close(load_at(11u), 2.0f + 3.0f * 1.12375f, 3e-5f, "and makes up for the rest in the next");
+    tap_check_close(load_at(10u) + load_at(11u), 2.0f * 5.0f - 3.0f * 0.45f, 3e-5f, "with the impulse of the real one");
+    tap_check_close(load_at(12u), 5.0f, 2e-6f, "then it has its last value");
+    tap_check_close(speed_at(10u), 1.0f, 1e-6f, "a speed step 0.55 into a model step goes to the next grid point");
     tap_check_close(speed_at(11u), -2.0f, 1e-6f, "where the last value begins");
-    tap_check(profile_is_moving(&plan.load, 10u) && !profile_is_moving(&plan.load, 11u), "it moves until then");
+    tap_check(profile_is_moving(&plan.load, 11u) && !profile_is_moving(&plan.load, 12u), "it moves until then");
     plan_of(UNIT_SET "load step N0 2 N1 5 t1 0");
     tap_check_close(load_at(0u), 5.0f, 2e-6f, "a step at time 0 is there at once");
+    for (uint32_t i = 0u; i < plants_scaled(2000u, 100u); i++) {
+        struct params params = plants_params(UNIT_SET "load step t1 0");
+
+        params.load_n = plants_random(&state, 0.0f, 10.0f);
+        params.load_end_n = plants_random(&state, 0.0f, 10.0f);
+        plants_plan(&plan, &params);
+        is_steady = is_steady && load_at(0u) == load_at(2u) && load_at(1u) == load_at(2u);
+    }
+    tap_check(is_steady, "in one change, to the bit: the plant may take it for a load that never changed");
     plan_of(UNIT_SET "load step N0 2 N1 5 t1 1e6");
     tap_check_close(load_at(10000000u), 2.0f, 1e-6f, "a late step waits");
 }
@@ -58,7 +73,8 @@ static void check_ramp(void)
     tap_check_close(load_at(20u), 4.05f, 1e-5f, "so is any other");
     tap_check_close(load_at(29u), 5.85f, 1e-5f, "and the last whole one");
     tap_check_close(load_at(30u), 6.0f, 2e-6f, "after it the last value");
-    tap_check(load_at(31u) == load_at(UINT64_C(1) << 40), "which stays");
+    tap_check(load_at(31u) == load_at(UINT64_C(1) << 40) && load_at(31u) == load_at((UINT64_C(1) << 32) + 12u),
+              "which stays");
     tap_check_close(speed_at(0u), 3.8f, 1e-5f, "a ramp of ten steps from time 0");
     tap_check_close(speed_at(9u), 0.2f, 1e-5f, "ends half a step before its end");
     tap_check(speed_at(10u) == 0.0f, "and then is over");
@@ -102,7 +118,8 @@ static void check_sine(void)
 static void check_exact_phase(void)
 {
     /* A frequency that is a power of two of the steps' rate is exact, so its phase never drifts. */
-    const struct profile profile = {PROFILE_SINE, 0.0f, 1.0f, 0u, 0.0f, 0.0f, UINT64_C(1) << 58};
+    const struct profile profile = {
+        .kind = PROFILE_SINE, .to = 1.0f, .first = 1.0f, .second = 1.0f, .turns_per_step = UINT64_C(1) << 58};
     const uint64_t late = UINT64_C(1) << 50;
     bool is_same = true;
 
@@ -111,6 +128,9 @@ static void check_exact_phase(void)
     }
     tap_check(is_same, "an exact frequency gives the same bits after 2^50 steps");
     tap_check(profile_value(&profile, 0u) == fmath_sine_turns(0x02000000u), "half a step after 0 at first");
+    plan_of(UNIT_SET "load sine N0 5 N1 2 fN 1.2345678e-5");
+    tap_check((float)plan.load.turns_per_step == 1.2345678e-5f * plan.scale.step_s * 18446744073709551616.0f,
+              "a low frequency keeps all its bits");
 }
 
 void test_profile(void)

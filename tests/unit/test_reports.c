@@ -20,18 +20,64 @@ static void check_overrun(void)
     plants_ticks(&executive, 10u);
     executive_book(&executive, 700u, 1000u, false);
     executive_book(&executive, 1200u, 1000u, true);
+    executive_book(&executive, 100u, 1000u, false);
     plants_ticks(&executive, 1u);
     tap_check(executive.sim.step == 10u && executive.load.shed == 1u && executive.load.ticks == 10u,
               "after a late tick the next is shed");
     plants_ticks(&executive, 1u);
     tap_check(executive.sim.step == 11u && executive.load.shed == 1u, "and only that");
-    tap_check(executive.load.overruns == 1u && executive.load.busy_max == 1200u && executive.load.busy_sum == 1900u &&
+    tap_check(executive.load.overruns == 1u && executive.load.busy_max == 1200u && executive.load.busy_sum == 2000u &&
                   executive.load.period == 1000u,
               "what ticks took is booked");
     executive_book(&executive, 1200u, 1000u, true);
     (void)plants_order(&executive, "N0 2", false, NULL);
     executive_tick(&executive, true);
     tap_check(!executive_has_order(&executive) && executive.sim.step == 11u, "a shed tick still takes its order");
+}
+
+/* Orders that change neither set nor measurement leave detector and measurement alone. */
+static void check_side_orders(void)
+{
+    plants_executive(&executive, "N0 1");
+    executive_free_run(&executive);
+    plants_ticks(&executive, 64u * 40u);
+    tap_check(executive.sim.detector.verdict.propensity == PROPENSITY_QUIET, "a quiet brake");
+    executive_measure(&executive, 1000u);
+    plants_ticks(&executive, 10u);
+    executive_stream(&executive, 0u);
+    plants_ticks(&executive, 10u);
+    tap_check(executive.sim.detector.verdict.propensity == PROPENSITY_QUIET && executive.sim.measure.done == 20u,
+              "is not asked anew for a measurement or a stream");
+    (void)plants_order(&executive, "N0 1.1", false, NULL);
+    plants_ticks(&executive, 64u * 34u);
+    executive_stream(&executive, 0u);
+    plants_ticks(&executive, 10u);
+    tap_check(executive.sim.detector.verdict.propensity == PROPENSITY_QUIET && executive.sim.measure.done == 1000u,
+              "nor is it after a set");
+    plants_ticks(&executive, 100u);
+    tap_check(executive.sim.step - look()->now.step < 32u, "a free run reports every 32 ticks");
+    (void)plants_order(&executive, "N0 1 spp 128", true, NULL);
+    executive_tick(&executive, false);
+    tap_check(executive.load.ticks == 0u && look()->load.ticks == 0u, "a reset starts the books again");
+}
+
+/* Samples keep their distance over orders that do not concern them. */
+static void check_stream_phase(void)
+{
+    struct sample sample = {0};
+
+    plants_executive(&executive, "N0 1");
+    executive_stream(&executive, 10u);
+    executive_grant(&executive, 100u);
+    plants_ticks(&executive, 5u);
+    (void)plants_order(&executive, "N0 1.5", false, NULL);
+    plants_ticks(&executive, 5u);
+    tap_check(ring_pop(&executive.samples, &sample) && sample.step == 10u, "a set does not shift the stream");
+    plants_ticks(&executive, 5u);
+    (void)plants_order(&executive, "N0 1.5 spp 128", true, NULL);
+    executive_grant(&executive, 100u);
+    plants_ticks(&executive, 10u);
+    tap_check(ring_pop(&executive.samples, &sample) && sample.step == 10u, "a reset starts it again");
 }
 
 static void check_stream(void)
@@ -137,6 +183,8 @@ static void check_epochs(void)
 void test_reports(void)
 {
     check_overrun();
+    check_side_orders();
+    check_stream_phase();
     check_stream();
     check_fault();
     check_epochs();

@@ -80,6 +80,10 @@ static void check_not_finite(void)
     sim->f32.normal.y = 1.0f / zero;
     (void)sim_step(sim);
     tap_check(sim->fault == SIM_FAULT_DOMAIN, "so is the infinite");
+    plants_start(&plant, "N0 1");
+    sim->f32.normal.y = 70.0f;
+    (void)sim_step(sim);
+    tap_check(sim->fault == SIM_FAULT_DOMAIN, "so is a pad pressed far beyond any load");
     plants_start(&plant, "N0 1 xd0 60 v_max 5"); /* twelve units, three more than Q4.27 would need */
     tap_check(!sim->output.is_saturated, "twelve units fit the output");
     (void)sim_step(sim);
@@ -128,6 +132,40 @@ static void check_apply(void)
     tap_check(sim->f32.normal.n == 0.5f, "the next step has the new load");
 }
 
+/* What the detector is told, against hand values for Table 1 at N = 1. */
+static void check_config(void)
+{
+    const struct detector_config *config = &plant.plan.detector;
+
+    plants_start(&plant, "");
+    tap_check(config->steps_per_period == 64u && config->stiffness_q16 == 2u << 16 && config->load_speed == 0 &&
+                  config->load_response == 0,
+              "the detector knows steps and springs");
+    tap_check_close((float)config->step_q27 / 134217728.0f, 0.09817477f, 1e-7f, "the step");
+    tap_check_close((float)config->gain_q16 / 65536.0f, 0.54766f, 1e-4f, "and what the normal motion explains");
+    plants_start(&plant, "kt 0.05 k 0 N1 0.5 load sine fN 0.14528816 c 0 alpha 0");
+    tap_check_close((float)config->stiffness_q16 / 65536.0f, 3.2f, 1e-4f, "in the units of a shifted x");
+    tap_check_close((float)config->step_q27 / 134217728.0f, 0.09817477f / 8.0f, 1e-7f, "the step too");
+    /* n1 r/(1 - r^2) with n1 = 0.5/6, r = 1/2; then mu/(r^2 - Z2) of it */
+    tap_check_close((float)config->load_speed / 134217728.0f, 0.0555556f, 1e-5f, "a sine of the load moves y");
+    tap_check_close((float)config->load_response / 134217728.0f, 0.0555556f * 0.82158f / 0.2f, 3e-5f, "and x");
+}
+
+static void check_counters(void)
+{
+    plants_start(&plant, "N0 1");
+    plants_run_steps(&plant, 5u);
+    tap_check(sim->counters.saturations == 0u, "nothing saturates");
+    sim->f32.x = 20.0f;
+    plants_run_steps(&plant, 1u);
+    tap_check(sim->counters.saturations == 1u && sim->output.x == INT32_MAX && sim->fault == SIM_FAULT_NONE,
+              "an x beyond the output's numbers is held there and counted");
+    sim_measure(sim, 100u);
+    sim_reset(sim, &plant.plan);
+    tap_check(sim->counters.saturations == 0u && !measure_is_active(&sim->measure),
+              "a reset ends counts and measurement");
+}
+
 static void check_sample(void)
 {
     struct sample sample;
@@ -153,5 +191,7 @@ void test_sim(void)
     check_not_finite();
     check_hash();
     check_apply();
+    check_config();
+    check_counters();
     check_sample();
 }

@@ -1,5 +1,5 @@
-/* The tangential step, regime by regime: slip against closed forms, stick to the bit, where it ends, crossing, floor of
- * friction, and a disc that changes its speed. */
+/* The tangential step, regime by regime: slip against closed forms, stick to the bit, the floor of friction, and a
+ * disc that changes its speed. */
 #include "model/step_f32.h"
 
 #include "base/fmath.h"
@@ -105,59 +105,17 @@ static void check_stick(const char *assignments)
     tap_check(pad->mode == (pad->disc > 0.0f ? PLANT_SLIP_PLUS : PLANT_SLIP_MINUS), "then it slips back");
 }
 
-/* Under the swinging load of the paper: at the end of stick mu P is what the springs need. */
-static void check_exit(void)
+/* Where the pad never comes near the disc's speed the raw sign is no worse. */
+static void check_naive(void)
 {
-    const struct scale *scale = &plant.plan.scale;
-    float worst = 0.0f;
-    uint32_t exits = 0u;
+    float x;
 
-    plants_start(&plant, "N0 5 normal exact");
-    for (uint32_t i = 0u; i < 64u * 40u; i++) {
-        const float x = pad->x;
-        const bool stuck = pad->mode == PLANT_STICK;
-
-        plants_run_steps(&plant, 1u);
-        if (stuck && pad->mode != PLANT_STICK && plant.sim.output.events == 1u) {
-            const float part = (float)plant.sim.output.stick / (float)PLANT_SHARE_ONE;
-            const uint32_t phase = (i << 26) + (uint32_t)(part * 67108864.0f);
-            const float force = 0.25f * (1.0f - fmath_sine_turns(phase + (1u << 30)));
-            const float need = scale->damping * pad->disc + scale->stiffness * (x + part * scale->step * pad->disc);
-
-            worst = larger_error(worst, scale->friction * force, fmath_abs(need));
-            exits++;
-        }
-    }
-    tap_check(exits >= 30u, "the swinging load ends stick once a period");
-    tap_check_close(worst / (scale->friction * 0.25f), 0.0f, 1e-4f, "where mu P is what the springs need");
-}
-
-/* tests/golden: fig5_N5, which sticks and crosses; x after 20 periods from a solver of order 22. */
-static void check_crossing(void)
-{
-    uint32_t crossings = 0u;
-    bool is_fair = true;
-
-    plants_start(&plant, "N0 5 normal exact spp 64");
-    for (uint32_t i = 0u; i < 20u * 64u; i++) {
-        const int8_t before = pad->mode;
-        const struct plant_output *output = &plant.sim.output;
-
-        plants_run_steps(&plant, 1u);
-        is_fair = is_fair && pad->mode * (pad->disc - pad->v) >= 0.0f;
-        if (before == PLANT_SLIP_PLUS && pad->mode == PLANT_SLIP_MINUS) {
-            crossings++;
-            is_fair = is_fair && output->events == 1u && output->stick == 0u && output->slip_minus > 0u;
-        }
-    }
-    tap_check(crossings >= 15u && is_fair, "a pad that friction cannot hold crosses, and the mode is the sign of vr");
-    tap_check_close(plants_x_m(&plant), 0.230829189f, 1e-4f, "64 steps a period, of a swing of 2 m");
-    plants_start(&plant, "N0 5 normal exact spp 128");
+    plants_start(&plant, "N0 1");
     plants_run_periods(&plant, 20u);
-    tap_check_close(plants_x_m(&plant), 0.230829189f, 1e-5f, "128 steps are at least ten times as good");
-    plants_start(&plant, "N0 5 normal exact spp 128 method naive normal rk4");
+    x = pad->x;
+    plants_start(&plant, "N0 1 method naive");
     plants_run_periods(&plant, 20u);
-    tap_check(fmath_abs(plants_x_m(&plant) - 0.230829189f) > 1e-3f, "RK4 on the raw sign is not");
+    tap_check_close(pad->x, x, 1e-6f, "in slip the naive method is the same RK4");
 }
 
 static void check_floor(void)
@@ -211,8 +169,7 @@ void test_step(void)
     check_slope();
     check_stick("N0 1 y0 1 v0 0.05 xd0 0.05");
     check_stick("N0 1 y0 1 v0 -0.05 xd0 -0.05");
-    check_exit();
-    check_crossing();
+    check_naive();
     check_floor();
     check_speed_change();
 }

@@ -2,6 +2,7 @@
 #include "tones.h"
 
 #include "base/fmath.h"
+#include "tap.h"
 
 enum {
     FRAME = TONES_SPP * DETECTOR_FRAME_PERIODS,
@@ -9,9 +10,12 @@ enum {
     STEP_Q27 = 13176796 /* 2 pi/64 */
 };
 
+const struct tone tones_forced = {0.2f, TONES_TURN, 0.0f};
+const struct tone tones_none = {0.0f, 0u, 0.0f};
+
 int32_t tones_q27(float value) { return (int32_t)(value * TONES_ONE); }
 
-struct plant_output tones_output(const struct bench *bench)
+struct plant_output tones_output(const struct tones *bench)
 {
     const uint32_t in_period = bench->step % TONES_SPP;
     const uint32_t minus_end = bench->stick_steps + bench->minus_steps;
@@ -29,30 +33,30 @@ struct plant_output tones_output(const struct bench *bench)
         }
     }
     output.x = tones_q27(x);
-    output.v = tones_q27(v);
+    output.v = tones_q27(v + bench->carried);
     output.w = tones_q27(bench->normal * fmath_sine_turns(TONES_TURN * bench->step));
     output.stick = in_period < bench->stick_steps ? PLANT_SHARE_ONE : 0u;
     output.slip_minus = in_period >= bench->stick_steps && in_period < minus_end ? PLANT_SHARE_ONE : 0u;
     return output;
 }
 
-void tones_start(struct bench *bench, float normal, struct tone first, struct tone second)
+void tones_start(struct tones *bench, float normal, struct tone first, struct tone second)
 {
     struct plant_output output;
 
-    *bench = (struct bench){.tones = {first, second}, .normal = normal, .disc = 0.5f};
+    *bench = (struct tones){.tones = {first, second}, .normal = normal, .disc = 0.5f};
     bench->config = (struct detector_config){TONES_SPP, STEP_Q27, 2u << 16, 1u << 16, 0, 0};
     output = tones_output(bench);
     detector_reset(&bench->detector, &bench->config, &output);
 }
 
-void tones_set_spring(struct bench *bench, float stiffness)
+void tones_set_spring(struct tones *bench, float stiffness)
 {
     bench->config.stiffness_q16 = (uint32_t)(stiffness * 65536.0f);
     detector_restart(&bench->detector, &bench->config);
 }
 
-const struct detector_verdict *tones_run_to(struct bench *bench, uint32_t frames)
+const struct detector_verdict *tones_run_to(struct tones *bench, uint32_t frames)
 {
     while (bench->step < frames * FRAME + SEARCH) {
         struct plant_output output;
@@ -64,4 +68,16 @@ const struct detector_verdict *tones_run_to(struct bench *bench, uint32_t frames
         bench->news += detector_push(&bench->detector, &output) ? 1u : 0u;
     }
     return &bench->detector.verdict;
+}
+
+bool tones_say(const struct detector_verdict *verdict, uint8_t propensity, uint8_t motion, uint8_t period)
+{
+    const bool ok = verdict->propensity == propensity && verdict->motion == motion && verdict->period == period;
+
+    if (!ok) {
+        tap_note(detector_propensity_name(verdict->propensity));
+        tap_note(detector_class_name(verdict->motion));
+        tap_note_number("period", (float)verdict->period);
+    }
+    return ok;
 }

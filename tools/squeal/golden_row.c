@@ -137,7 +137,7 @@ static void row_set(struct row *row)
     (void)strcpy(line, "set");
     line_append_cells(row, line, PAIRS(initial));
     line_append(row, line, "substeps", "64");
-    line_append(row, line, "tick", "400");
+    line_append(row, line, "tick", "200");
     (void)row_send(row, line);
 }
 

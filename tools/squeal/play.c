@@ -9,7 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define SOUND_LEAST_S 0.6     /* of physical time; a tone is hard to judge in less */
+#define SOUND_LEAST_S 0.55    /* of physical time; a tone is hard to judge in less */
 #define SOUND_LOWEST_HZ 200.0 /* below this it is a groan that small speakers do not play */
 #define DISC_SLOWS 0.05       /* a disc that loses this share of its speed within an act is being stopped */
 #define TICK_FASTEST_HZ 4000.0
@@ -59,7 +59,7 @@ static void listen(void *context, enum session_line kind, const char *text)
         record_sample(&story->record, text);
         break;
     case SESSION_NOTICE:
-        tell_words(text);
+        tell_notice(text);
         break;
     case SESSION_BODY:
         if (act == NULL) {
@@ -71,10 +71,10 @@ static void listen(void *context, enum session_line kind, const char *text)
             (void)strcpy(act->verdict, text + 8);
             act->has_verdict = true;
             tell_verdict(act->verdict);
+        } else if (act->title[0] == '\0') {
+            (void)strcpy(act->title, text);
+            tell_act(text);
         } else {
-            if (act->title[0] == '\0') {
-                (void)strcpy(act->title, text);
-            }
             tell_words(text);
         }
         break;
@@ -97,8 +97,8 @@ static bool must(struct story *story, const char *line)
     return false;
 }
 
-/* Has the device stream every step, and slows its tick down until the line carries that. Time is virtual or the device
- * paces itself, and no bit of the trajectory depends on the tick. */
+/* Has the device stream, and slows its tick down until the line carries that. No bit of the trajectory depends on the
+ * tick. */
 static bool stream_start(struct story *story, struct act *act)
 {
     char line[SESSION_COMMAND_MAX];
@@ -118,7 +118,7 @@ static bool stream_start(struct story *story, struct act *act)
             return false;
         }
     }
-    story_fail(story, "the line is too slow for a stream of every step");
+    story_fail(story, "the line is too slow for the stream");
     return false;
 }
 
@@ -138,16 +138,27 @@ static bool prolong(struct story *story, struct act *act)
     return must(story, line);
 }
 
-/* After an act the device's own count of what it could not send must explain every gap in the step column. */
-static void losses_check(struct story *story, const struct act *act)
+/* Samples that the step column shows to be missing: before the first one, in gaps, and after the last one. */
+static double missing_of(const struct act *act)
+{
+    const double last = act->count > 0 ? act->samples[act->count - 1].step : 0.0;
+    const double first = act->count > act->start ? act->samples[act->start].step : act->every;
+    const double end = fields_number(act->status, "step");
+
+    return first / act->every - 1.0 + act->missing + floor((end - last) / act->every);
+}
+
+/* The device's own count of what it could not send must explain every one of them. */
+static void losses_check(struct story *story, struct act *act)
 {
     const double drops = fields_number(act->status, "drops");
 
+    act->missing = missing_of(act);
     if (!(drops >= act->missing && drops <= act->missing)) {
         story_fail(story, "act %d: %.0f samples are missing, the device counted %.0f", act->number, act->missing,
                    drops);
     } else if (act->missing > 0.0) {
-        printf("    %.0f samples did not fit the line; the device counted them\n", drops);
+        printf("(%.0f samples did not fit the line; the device counted them.)\n", drops);
     }
 }
 
@@ -155,7 +166,6 @@ static bool act_play(struct story *story, struct act *act)
 {
     char line[SESSION_COMMAND_MAX];
 
-    printf("\nAct %d\n", act->number);
     story->record.act = act;
     if (!must(story, "status")) {
         return false;

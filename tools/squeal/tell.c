@@ -12,7 +12,6 @@ static const struct {
 } rows[] = {
     {"propensity", "verdict", ""},
     {"class", "motion", ""},
-    {"period", "repeats after", "normal periods"},
     {"amplitude_um", "amplitude", "um"},
     {"velocity_mm_s_rms", "velocity", "mm/s rms"},
     {"level_db", "level", "dB re 1 nm/s"},
@@ -22,12 +21,11 @@ static const struct {
     {"audible", "audible", ""},
     {"level_dba_estimate", "loudness, estimate", "dB(A)"},
     {"stick", "stick share", "of the time"},
-    {"growth_per_s", "growth", "1/s"},
     {"t_v10", "ten times v0 after", "s"},
     {"predicted", "predicted", ""},
     {"predicted_growth_per_s", "predicted growth", "1/s"},
     {"bistable", "bistable", ""},
-    {"sigma", "time scale", "physical s per s"},
+    {"sigma", "time scale", "physical s per s of ticks"},
 };
 
 void tell_title(const struct story *story)
@@ -43,16 +41,57 @@ void tell_title(const struct story *story)
            story->emulator);
 }
 
-void tell_words(const char *text) { printf("  %s\n", text); }
+void tell_act(const char *title)
+{
+    printf("\n%s\n", title);
+    for (size_t i = strlen(title); i > 0; i--) {
+        (void)putchar('-');
+    }
+    (void)putchar('\n');
+}
+
+void tell_words(const char *text) { printf("%s\n", text); }
+
+void tell_notice(const char *text)
+{
+    char propensity[16];
+    const double t_s = fields_number(text, "t");
+
+    if (fields_text(text, "propensity", propensity, sizeof propensity) && t_s >= 0.0) {
+        printf("  %10.4g s  %s\n", t_s, propensity);
+    } else {
+        printf("  %s\n", text);
+    }
+}
+
+/* A length in a unit that suits it; the device sends micrometres for brakes and models alike. */
+static void length_print(double length_um)
+{
+    if (length_um < 1e3) {
+        printf("%.4g um\n", length_um);
+    } else if (length_um < 1e6) {
+        printf("%.4g mm\n", length_um / 1e3);
+    } else {
+        printf("%.4g m\n", length_um / 1e6);
+    }
+}
 
 void tell_verdict(const char *fields)
 {
-    char value[64];
+    char text[64];
+    double value = 0.0;
 
-    printf("\n");
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
-        if (fields_text(fields, rows[i].key, value, sizeof value) && strcmp(value, "nan") != 0) {
-            printf("    %-20s %s%s%s\n", rows[i].label, value, rows[i].unit[0] != '\0' ? " " : "", rows[i].unit);
+        if (!fields_text(fields, rows[i].key, text, sizeof text) || strcmp(text, "nan") == 0) {
+            continue;
+        }
+        printf("    %-20s ", rows[i].label);
+        if (!fields_parse(text, &value)) {
+            printf("%s\n", text);
+        } else if (strcmp(rows[i].unit, "um") == 0) {
+            length_print(value);
+        } else {
+            printf("%.4g%s%s\n", value, rows[i].unit[0] != '\0' ? " " : "", rows[i].unit);
         }
     }
 }

@@ -6,8 +6,14 @@
 
 void tell_title(const struct story *story);
 
-/* One line of the device's narration, or of its notices. */
+/* The heading of an act: the first line of the device's narration. */
+void tell_act(const char *title);
+
+/* Another line of it. */
 void tell_words(const char *text);
+
+/* A notice, such as a verdict that changed on the way. */
+void tell_notice(const char *text);
 
 /* The fields of a verdict, one a line. */
 void tell_verdict(const char *fields);

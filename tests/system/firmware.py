@@ -1,0 +1,108 @@
+"""Talks to a firmware image through its console, for the system tests. Standard library only."""
+import os
+import re
+import select
+import shlex
+import signal
+import subprocess
+import time
+
+COMMANDS = {
+    "board": shlex.split(os.environ["BOARD_RUN"]) + [os.environ["IMAGE"]],
+    "host": [os.environ["HOST_IMAGE"]],
+}
+
+
+class Silence(Exception):
+    """The firmware did not answer in time, or ended."""
+
+
+class Firmware:
+    """One running image. Every wait has an end; the child never outlives the test."""
+
+    def __init__(self, where="board", extra=(), limit_s=60.0):
+        # Options of the emulator go before -kernel, which is the last one.
+        command = COMMANDS[where]
+        command = command[:1] + list(extra) + command[1:]
+        self.limit_s = limit_s
+        self.process = subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE,
+                                        stderr=subprocess.DEVNULL, start_new_session=True)
+        os.set_blocking(self.process.stdout.fileno(), False)
+        os.set_blocking(self.process.stdin.fileno(), False)
+        self.input, self.lines, self.partial = b"", [], b""
+        self.body, self.notices, self.samples = [], [], []
+        self.ask("echo off")
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *unused):
+        try:
+            os.killpg(self.process.pid, signal.SIGKILL)
+        except ProcessLookupError:
+            pass
+        self.process.wait()
+
+    def _pump(self, until):
+        """Moves bytes both ways once."""
+        out, into = self.process.stdout, self.process.stdin
+        readable, writable, _ = select.select([out], [into] if self.input else [], [], max(0.0, until - time.monotonic()))
+        if writable:
+            self.input = self.input[os.write(into.fileno(), self.input[:4096]):]
+        if readable:
+            chunk = os.read(out.fileno(), 65536)
+            if not chunk:
+                raise Silence("the firmware ended")
+            *whole, self.partial = (self.partial + chunk).split(b"\r\n")
+            self.lines += [line.decode("ascii", "replace") for line in whole]
+
+    def send(self, data):
+        self.input += data if isinstance(data, bytes) else data.encode() + b"\r"
+
+    def answer(self):
+        """Next line that begins with ok or error; what comes before is sorted."""
+        until = time.monotonic() + self.limit_s
+        self.body, self.notices, self.samples = [], [], []
+        while True:
+            while self.lines:
+                line = self.lines.pop(0)
+                if re.match(r"(ok|error) ", line):
+                    return line
+                if line.startswith("- "):
+                    self.body.append(line[2:])
+                elif line.startswith("! "):
+                    self.notices.append(line[2:])
+                elif re.match(r"\d", line):
+                    self.samples.append(line.split(","))
+            if time.monotonic() > until:
+                raise Silence("no answer")
+            self._pump(until)
+
+    def ask(self, line):
+        """Sends a line; its answer's fields, or the answer itself if it is an error."""
+        self.send(line)
+        answer = self.answer()
+        return answer if answer.startswith("error") else fields(answer)
+
+
+def fields(line):
+    return dict(word.split("=", 1) for word in line.split() if "=" in word)
+
+
+class Tap:
+    """Numbers tests and prints the plan at the end."""
+
+    def __init__(self):
+        self.count, self.failed = 0, 0
+
+    def check(self, holds, claim, *notes):
+        self.count += 1
+        self.failed += not holds
+        print(f"{'' if holds else 'not '}ok {self.count} - {claim}", flush=True)
+        if not holds:
+            for note in notes:
+                print(f"# {note}", flush=True)
+
+    def finish(self):
+        print(f"1..{self.count}")
+        raise SystemExit(self.failed != 0)

@@ -1,0 +1,412 @@
+/* The console as a whole: every command, every refusal, any input. */
+#include "protocol/console.h"
+
+#include "base/decimal.h"
+#include "base/mem.h"
+#include "bench.h"
+#include "model/presets.h"
+#include "protocol/signals.h"
+#include "tap.h"
+#include "tests.h"
+
+/* One answer a line, whatever the line says; no answer longer than what the console keeps free for it. */
+static void check_answers(void)
+{
+    static const char *const lines[] = {
+#define COMMAND(id, name, arguments, help) #name "\r", #name " bogus\r", #name " 1 2 3\r", "help " #name "\r",
+#include "protocol/commands.def"
+#undef COMMAND
+        "echo on\r",      "echo off\r",        "list m\r",
+        "list nothing\r", "get m\r",           "set m 1\r",
+        "set m\r",        "preset brake\r",    "step 3\r",
+        "step 0\r",       "step 1000000001\r", "measure 1\r",
+        "stream csv\r",   "stream header\r",   "stream teleplot x,xd every 1000\r",
+        "stream off\r",   "demo 9\r",          "  id  \r",
+        "Help\r",         "stop stop\r",       "\x01\r",
+    };
+    bool has_one_each = true;
+    size_t longest = 0u;
+
+    bench_open();
+    for (size_t i = 0u; i < sizeof lines / sizeof lines[0]; i++) {
+        if (bench_starts(lines[i], "demo\r")) {
+            continue; /* a test of its own */
+        }
+        (void)bench_say(lines[i]);
+        longest = bench.heard_size > longest ? bench.heard_size : longest;
+        if (bench.oks + bench.errors != 1u) {
+            has_one_each = false;
+            tap_note(lines[i]);
+            tap_note(bench.heard);
+        }
+        (void)bench_say("stop\r");
+    }
+    tap_check(has_one_each, "every line has exactly one answer");
+    tap_check(longest > 2000u && longest <= CONSOLE_ANSWER_MAX - 512u, "no answer needs more room than is kept for it");
+    tap_note_number("longest answer, bytes", (float)longest);
+}
+
+/* get prints what set reads: every parameter, many values. */
+static void check_round_trips(void)
+{
+    uint32_t random = 99u;
+    bool ok = true;
+
+    bench_open();
+    for (size_t i = 0u; i < params_count; i++) {
+        const struct params_info *info = &params_table[i];
+        char line[200] = "set ";
+        size_t length = 4u;
+        const char *value;
+        const struct params before = *executive_params(&bench.executive);
+
+        (void)bench_say("get ");
+        for (const char *c = info->symbol; *c != '\0'; c++) {
+            line[length++] = *c;
+        }
+        line[length] = '\r';
+        line[length + 1u] = '\0';
+        (void)bench_say(line + 4);
+        ok = ok && bench_starts(bench.last, "ok get ");
+        for (value = bench.last; *value != '='; value++) {
+        }
+        line[length++] = ' ';
+        for (value++; *value != ' '; value++) {
+            line[length++] = *value;
+        }
+        line[length++] = '\r';
+        line[length] = '\0';
+        ok = ok && bench_starts(bench_say(line), "ok set ");
+        ok = ok && memcmp(&before, executive_params(&bench.executive), sizeof before) == 0;
+    }
+    tap_check(ok, "what get says, set takes, and nothing has changed");
+
+    ok = true;
+    for (unsigned i = 0u; i < 200u && ok; i++) {
+        const float wanted = -0.3f * (float)(tap_random(&random) >> 8) / 16777216.0f;
+        char line[64] = "set alpha ";
+        size_t length = 10u;
+
+        length += decimal_format_f32(wanted, DECIMAL_DIGITS_EXACT, line + length);
+        line[length++] = '\r';
+        line[length] = '\0';
+        ok = bench_starts(bench_say(line), "ok set alpha=");
+        ok = ok && executive_params(&bench.executive)->friction_slope_s_per_m == wanted;
+    }
+    tap_check(ok, "nine digits carry any value, to the last bit");
+}
+
+struct refusal {
+    const char *line, *answer;
+};
+
+/* A refused line leaves the set, the plan and the plant as they were. */
+static bool is_refused(const struct refusal *refusal)
+{
+    const struct executive_order draft = bench.executive.draft;
+    const uint32_t generation = bench.executive.publish.generation;
+    const uint32_t hash = bench.executive.sim.hash;
+    const bool ok = bench_starts(bench_say(refusal->line), refusal->answer) &&
+                    memcmp(&draft, &bench.executive.draft, sizeof draft) == 0 &&
+                    bench.executive.publish.generation == generation && bench.executive.sim.hash == hash;
+
+    if (!ok) {
+        tap_note(refusal->line);
+        tap_note(bench.last);
+    }
+    return ok;
+}
+
+static void check_refusals(void)
+{
+    static const struct refusal refusals[] = {
+        {"set m -1\r", "error out-of-range m=-1: 1e-06 .. 1000000 kg"},
+        {"set m 0\r", "error out-of-range m=0: 1e-06 .. 1000000 kg"},
+        {"set c 5 m nan\r", "error bad-number m=nan: not a decimal number"},
+        {"set c 1e39\r", "error bad-number c=1e39: "},
+        {"set v0 1x\r", "error bad-number v0=1x: "},
+        {"set spp 63\r", "error out-of-range spp=63: 16|32|64|128|256|512|1024"},
+        {"set arith f64\r", "error out-of-range arith=f64: f32|q27"},
+        {"set substeps 1.5\r", "error out-of-range substeps=1.5: 1 .. 64, a whole number"},
+        {"set c 0.02 bogus 1\r", "error unknown-name bogus: no parameter has this name; list shows them"},
+        {"set c 0.02 k\r", "error usage set <symbol> <value> [<symbol> <value> ...]"},
+        {"set\r", "error usage set "},
+        {"set load ramp t1 2 t2 1\r", "error out-of-range t2=1: 2 .. 1000000 s; the ramp ends after its start t1"},
+        {"set N0 5\r", "error out-of-scale N0=5: 0 .. 4 N, latched at reset; raise N_max"},
+        {"set v0 -5\r", "error out-of-scale v0=-5: -4 .. 4 m/s, latched at reset; raise v_max"},
+        {"set kt 20\r", "error out-of-scale kt=20: 0 .. 14 N/m; raise ke"},
+        {"set spp 16 kt 3\r", "error step-too-large spp=16: z = 0.7854 exceeds 0.4; raise spp or ke"},
+        {"set method naive normal exact\r", "error not-served method=naive: "},
+        {"preset nobody\r", "error unknown-name nobody: no preset has this name; preset lists them"},
+        {"get bogus\r", "error unknown-name bogus: "},
+        {"step 0\r", "error out-of-range n=0: 1 .. 1000000000, a whole number"},
+        {"step -5\r", "error out-of-range n=-5: "},
+        {"measure 1000001\r", "error out-of-range periods=1000001: 1 .. 1000000, a whole number"},
+        {"step\r", "error usage step <n>"},
+        {"status now\r", "error usage status: takes no arguments"},
+        {"demo 6\r", "error usage demo [act]"},
+        {"launch\r", "error unknown-command launch: no command has this name; help lists them"},
+    };
+    static const struct refusal while_running[] = {
+        {"set m 1\r", "error needs-restart m=1: "},
+        {"set c 0.02 spp 128\r", "error needs-restart spp=128: "},
+        {"step 5\r", "error is-running step: only while the plant is stopped"},
+        {"measure 5\r", "error is-running measure: "},
+    };
+    bool ok = true;
+
+    bench_open();
+    (void)bench_say("step 100\r");
+    for (size_t i = 0u; i < sizeof refusals / sizeof refusals[0]; i++) {
+        ok = is_refused(&refusals[i]) && ok;
+    }
+    tap_check(ok, "a refusal says why, and changes no bit");
+    ok = true;
+    (void)bench_say("run\r");
+    for (size_t i = 0u; i < sizeof while_running / sizeof while_running[0]; i++) {
+        const struct params before = *executive_params(&bench.executive);
+
+        ok = bench_starts(bench_say(while_running[i].line), while_running[i].answer) && ok;
+        ok = memcmp(&before, executive_params(&bench.executive), sizeof before) == 0 && ok;
+    }
+    tap_check(ok, "while running, what needs a standstill is refused");
+}
+
+static void check_set(void)
+{
+    bench_open();
+    tap_check_text(bench_say("set N0 50 alpha -0.02\r"), "ok set N0=50 alpha=-0.02 generation=2 reset=yes",
+                   "at the first step the scale follows the set");
+    (void)bench_say("step 10\r");
+    tap_check_text(bench_say("set friction_static_ratio 0.4 c 0.02\r"), "ok set mu_s=0.4 c=0.02 generation=3 reset=no",
+                   "later a live parameter takes effect between two steps, by either name");
+    tap_check(bench.executive.sim.step == 10u, "and the plant stays where it is");
+    tap_check_text(bench_say("set spp 128\r"), "ok set spp=128 generation=4 reset=yes", "a restart parameter resets");
+    tap_check(bench.executive.sim.step == 0u, "to the first step");
+    tap_check_text(bench_say("preset groan\r"), "ok preset groan generation=5", "a preset");
+    tap_check(executive_params(&bench.executive)->mass_kg == 12.0f, "is loaded");
+    tap_check_text(bench_say("defaults\r"), "ok defaults generation=6", "the defaults");
+    tap_check(executive_params(&bench.executive)->mass_kg == 0.3f, "are loaded");
+    (void)bench_say("run\r");
+    tap_check_text(bench_say("set mu_s 0.5\r"), "ok set mu_s=0.5 generation=7 reset=no",
+                   "a plant that runs is not reset");
+    (void)bench_say("stop\r");
+    tap_check_text(bench_say("reset\r"), "ok reset generation=9", "a reset");
+    tap_check(bench.executive.sim.step == 0u, "goes to the first step");
+}
+
+static void check_step(void)
+{
+    uint32_t hash;
+
+    bench_open();
+    tap_check(bench_starts(bench_say("step 64\r"), "ok step done=64 step=64 t=3.44144225 x="), "step steps");
+    (void)bench_say("step 1000\r");
+    hash = bench.executive.sim.hash;
+    (void)bench_say("defaults\rset substeps 7\rstep 900\rstep 100\rstep 64\r");
+    tap_check(bench.executive.sim.hash == hash && bench.executive.sim.step == 1064u, "in any portions the same bits");
+    (void)bench_say("defaults\rrun\r");
+    bench_wait(62u);
+    tap_check_text(bench_say("stop\r"), "ok stop step=64", "run and stop");
+    (void)bench_say("step 1000\r");
+    tap_check(bench.executive.sim.hash == hash, "the same again");
+    tap_check(bench_starts(bench_say("measure 3\r"), "ok measure periods=3 step=1256 t="), "a measurement steps");
+}
+
+static void check_stop(void)
+{
+    bool is_busy;
+
+    bench_open();
+    (void)bench_turn("step 1000000\r", 13u, SIZE_MAX, &is_busy);
+    bench_wait(50u);
+    (void)bench_say("get m\r\nstop\nget c\n");
+    tap_check(bench_starts(bench.heard, "error stopped step="), "stop ends a step at once");
+    tap_check(bench_holds(bench.heard, "\r\nok get m=0.3 unit=kg\r\nok stop step="),
+              "lines before it wait for their turn");
+    tap_check_text(bench.last, "ok get c=0.01 unit=N.s/m", "and lines behind it");
+    tap_check(bench.oks == 3u && bench.errors == 1u, "each with one answer");
+    tap_check(!executive_wants_tick(&bench.executive) && bench.executive.sim.step < 100u, "the plant stands");
+    tap_check(bench_starts(bench_say("step 5\r"), "ok step done=5 "), "and steps again when told to");
+    (void)bench_say("measure 100000\rstop\r");
+    tap_check(bench_starts(bench.heard, "error stopped step=") && bench.oks == 1u, "a measurement is stopped");
+    (void)bench_say("demo\rstop\r");
+    tap_check(bench_holds(bench.heard, "error stopped step=") && bench.oks == 1u, "so is the story");
+    (void)bench_say("selftest\rstop\r");
+    tap_check(bench_holds(bench.heard, "error stopped step=") && bench.oks == 1u, "and the self-test");
+    tap_check_text(bench_say("stop\r"), "ok stop step=0", "stop with nothing to stop is fine");
+    (void)bench_turn("step 100000\r", 12u, SIZE_MAX, &is_busy);
+    for (unsigned i = 0u; i < 100u; i++) {
+        if (bench_turn("get m\r", 6u, SIZE_MAX, &is_busy) < 6u) {
+            break;
+        }
+    }
+    tap_check(bench.console.waiting_size <= CONSOLE_WAITING_MAX && bench.console.task == CONSOLE_TASK_STEP,
+              "more than it can hold is left to the sender");
+    (void)bench_say("\r");
+    tap_check(bench.console.waiting_size == 0u, "and nothing is forgotten");
+}
+
+/* Noise of any kind, then a good line. */
+static void check_garbage(void)
+{
+    uint32_t random = 7u;
+    bool ok = true;
+    bool is_busy;
+
+    bench_open();
+    for (unsigned i = 0u; i < (tap_is_hosted() ? 300u : 30u) && ok; i++) {
+        char noise[64];
+
+        for (unsigned j = 0u; j < sizeof noise; j++) {
+            noise[j] = (char)tap_random(&random);
+        }
+        for (size_t sent = 0u; sent < sizeof noise;) {
+            sent += bench_turn(noise + sent, sizeof noise - sent, SIZE_MAX, &is_busy);
+        }
+        (void)bench_say("\rstop\r");
+        ok = bench_starts(bench_say("get m\r"), "ok get m=");
+    }
+    tap_check(ok, "after any noise the next good line is obeyed");
+    tap_check(bench.console.line.garbage > 0u && bench.console.rejected > 0u, "and the noise is counted");
+    (void)bench_say("get ");
+    console_lost(&bench.console, 3u);
+    tap_check(bench_starts(bench_say("m\r"), "error line-damaged: bytes of this line were lost"),
+              "a line that lost bytes is not obeyed");
+    tap_check(bench.console.uart_lost == 3u && bench_starts(bench_say("get m\r"), "ok "), "the next one is");
+    for (unsigned i = 0u; i < 300u; i++) {
+        (void)bench_say("x");
+    }
+    tap_check_text(bench_say("\r"), "error line-too-long: a line holds at most 240 characters", "an endless line ends");
+}
+
+/* A program that does not wait for answers, over a line that is slower than it. */
+static void check_paste(void)
+{
+    static const char line[] = "set mu_s 0.25 c 0.02\n";
+    const uint32_t lines = tap_is_hosted() ? 10000u : 500u;
+    uint32_t random = 3u;
+    uint32_t begun = 0u;
+    size_t offset = 0u;
+    bool is_busy = true;
+
+    bench_open();
+    (void)bench_say("step 3\r");
+    bench_listen_anew();
+    while (begun < lines || is_busy || bench.console.waiting_size > 0u || bench.text.head != bench.text.tail) {
+        const size_t offered = begun < lines ? 1u + tap_random(&random) % (sizeof line - 1u - offset) : 0u;
+
+        offset += bench_turn(line + offset, offered, tap_random(&random) % 100u, &is_busy);
+        if (offset == sizeof line - 1u) {
+            offset = 0u;
+            begun++;
+        }
+    }
+    tap_check(bench.oks == lines && bench.errors == 0u, "none of many pasted lines is lost");
+}
+
+static void check_echo(void)
+{
+    bench_open();
+    (void)bench_say("echo on\r");
+    (void)bench_say("get m\rget c\r");
+    tap_check_text(bench.heard, "get m\r\nok get m=0.3 unit=kg\r\nget c\r\nok get c=0.01 unit=N.s/m\r\n",
+                   "echo and answers follow each other");
+    (void)bench_say("stream csv step every 100 force\rrun\rget");
+    bench_wait(100u);
+    tap_check(bench_holds(bench.heard, "get\r\n100\r\n"), "a sample never joins a line that is being typed");
+    (void)bench_say(" m\r");
+    tap_check(bench_starts(bench.last, "ok get m="), "which goes on");
+}
+
+static void check_notices(void)
+{
+    bench_open();
+    (void)bench_say("set N0 10 alpha -0.02\rmeasure 200\r");
+    tap_check(bench.notices == 1u && bench_holds(bench.heard, "\r\n! propensity=squeal step="),
+              "squeal is announced, once");
+    (void)bench_say("measure 100\r");
+    tap_check(bench.notices == 0u, "and not again");
+    (void)bench_say("set mu_s 0.31\rmeasure 100\r");
+    tap_check(bench.notices == 0u, "nor when a change of the set has only made it unknown for a while");
+    (void)bench_say("preset fig7-ke5000\rstep 100000\r");
+    tap_check(bench_holds(bench.heard, "! fault=domain step=") && bench.notices <= 2u, "a fault is announced, once");
+    tap_check(bench_starts(bench.last, "error in-fault step="), "and ends the step");
+    tap_check(bench_starts(bench_say("run\r"), "error in-fault step=") &&
+                  bench_starts(bench_say("measure 1\r"), "error in-fault step="),
+              "nothing steps in a fault");
+    (void)bench_say("status\r");
+    tap_check(bench_starts(bench.last, "ok status state=fault ") && bench_holds(bench.last, " fault=domain "),
+              "the status says so");
+    tap_check(bench_starts(bench_say("verdict\r"), "ok verdict propensity=squeal class=diverging period=0 "),
+              "and the verdict");
+    tap_check(bench_starts(bench_say("reset\r"), "ok reset ") && bench_starts(bench_say("step 5\r"), "ok step "),
+              "a reset leaves it");
+}
+
+static void check_selftest(void)
+{
+    bench_open();
+    bench.console.clock.ticks_counted = 1000u;
+    bench.console.clock.ticks_expected = 1001u;
+    tap_check_text(bench_say("selftest\r"), "ok selftest passed=7 failed=0", "the self-test passes");
+    bench.console.clock.ticks_expected = 1002u;
+    tap_check_text(bench_say("selftest\r"), "error selftest passed=6 failed=1", "lost ticks fail it");
+    tap_check(bench_holds(bench.heard, "- fail ticks 1000 counted, 1002 expected by the other clock\r\n"), "by name");
+    bench.console.clock.ticks_expected = 998u;
+    tap_check_text(bench_say("selftest\r"), "error selftest passed=6 failed=1", "so do too many");
+}
+
+static void check_demo(void)
+{
+    bench_open();
+    (void)bench_say("set substeps 64 tick 4000\r");
+    (void)bench_say("demo 3\r");
+    tap_check(bench_starts(bench.heard, "- act 3: ") &&
+                  bench_holds(bench.heard, "\r\n- N = 0 to 1500 N, v0 = 0.1 m/s, ") &&
+                  bench_holds(bench.heard, "\r\n- verdict propensity=quiet class=rest period=0 ") &&
+                  bench_holds(bench.heard, "\r\n- The brake is quiet: "),
+              "an act says what is set and what came of it");
+    tap_check_text(bench.last, "ok demo act=3", "and ends with one answer");
+    (void)bench_say("demo 5\r");
+    tap_check(bench_holds(bench.heard, "\r\n- The brake squeals: 1999 Hz, 4.07") &&
+                  bench_holds(bench.heard, "\r\n- Squeal began at t = 0.18"),
+              "in the stop squeal begins on the way");
+    tap_check(executive_params(&bench.executive)->steps_per_tick == 64.0f &&
+                  executive_params(&bench.executive)->tick_hz == 4000.0f,
+              "the user's pace is kept");
+    (void)bench_say("stream csv step every 1000 force\rdemo 2\r");
+    tap_check(bench.samples == 19u && bench_holds(bench.heard, "class=stickslip-p1"),
+              "a stream goes on through an act");
+    (void)bench_say("demo\r");
+    tap_check_text(bench.last, "ok demo act=5", "the whole story");
+}
+
+static void check_banner(void)
+{
+    bench_open();
+    console_banner(&bench.console);
+    (void)bench_say("");
+    tap_check(bench_starts(bench.heard, "squeal 0.0.0 (test) on bench, none: "), "the banner says who is speaking");
+    tap_check_text(bench_say("id\r"),
+                   "ok id name=squeal version=0.0.0 build=test board=bench core=none emulated=no params=1 signals=1 "
+                   "commands=1 arith=f32 normal=rk4 method=event states=4 spp=64",
+                   "and so does id");
+}
+
+void test_console(void)
+{
+    check_banner();
+    check_answers();
+    check_round_trips();
+    check_refusals();
+    check_set();
+    check_step();
+    check_stop();
+    check_garbage();
+    check_paste();
+    check_echo();
+    check_notices();
+    check_selftest();
+    check_demo();
+}
