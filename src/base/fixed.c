@@ -38,11 +38,11 @@ int64_t fixed_times_float(int64_t factor, float value, int exponent)
     if (product == 0) {
         return 0;
     }
+    if (field == 0xffu || (int)fixed_bits(magnitude) + power > 62) {
+        return product < 0 ? -TIMES_MAX : TIMES_MAX;
+    }
     if (power < 0) {
         return power < -62 ? 0 : fixed_shift_right(product, (unsigned)-power);
-    }
-    if (field == 0xffu || fixed_bits(magnitude) + (unsigned)power > 62u) {
-        return product < 0 ? -TIMES_MAX : TIMES_MAX;
     }
     return product * ((int64_t)1 << power);
 }
