@@ -188,6 +188,12 @@ void normal_q27_look(const struct normal_q27 *normal, const struct normal_q27_co
     }
 }
 
+/* No motion bends by more than 3 within a step, unless its end has been saturated, and the plant with it. */
+static int32_t within_bend(int64_t value)
+{
+    return (int32_t)(value > 3 << 27 ? 3 << 27 : value < -(3 << 27) ? -(3 << 27) : value);
+}
+
 void normal_q27_arc_make(struct normal_q27_arc *arc, const struct normal_q27 *normal,
                          const struct normal_q27_coeffs *coeffs, int32_t fraction, const struct normal_q27_piece *piece)
 {
@@ -198,8 +204,8 @@ void normal_q27_arc_make(struct normal_q27_arc *arc, const struct normal_q27 *no
 
     arc->y = normal->y;
     arc->slope = slope0;
-    arc->square = (int32_t)(3 * rise - 2 * (int64_t)slope0 - slope1);
-    arc->cube = (int32_t)((int64_t)slope0 + slope1 - 2 * rise);
+    arc->square = within_bend(3 * rise - 2 * (int64_t)slope0 - slope1);
+    arc->cube = within_bend((int64_t)slope0 + slope1 - 2 * rise);
 }
 
 void normal_q27_change_contact(struct normal_q27 *normal)

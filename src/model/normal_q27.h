@@ -99,7 +99,7 @@ static inline int32_t normal_q27_arc_y(const struct normal_q27_arc *arc, int32_t
 
 static inline int32_t normal_q27_arc_slope(const struct normal_q27_arc *arc, int32_t t)
 {
-    return arc->slope + fixed_part(2 * arc->square + 3 * fixed_part(arc->cube, t), t);
+    return fixed_saturate((int64_t)arc->slope + fixed_part(2 * arc->square + 3 * fixed_part(arc->cube, t), t));
 }
 
 /* Moves to the end of a piece. */

@@ -1,8 +1,8 @@
 /* Sums of products, formed in 64 bits and rounded once: the one operation that the fixed-point plant is made of.
  *
  * It comes in two kinds, told apart at compile time. With is_saturated given the result is held within 32 bits, and
- * *is_saturated is set if it had to be. With NULL the caller has proven that the result fits, and nothing is asked. Where
- * both serve they give the same bits. Proofs: MODEL.md, "Fixed point". */
+ * *is_saturated is set if it had to be. With NULL the caller has proven that the result fits, and nothing is asked.
+ * Proofs: MODEL.md, "Fixed point". */
 #ifndef MODEL_SUM_Q27_H
 #define MODEL_SUM_Q27_H
 
@@ -69,7 +69,7 @@ BASE_INLINE int32_t sum_q27_rk4(int32_t base, int32_t sixth, int32_t a, int32_t 
     if (is_saturated != NULL) {
         sum = (int64_t)sixth * a + (int64_t)sixth * b + (int64_t)sixth * c;
         *mean = sum_q27(base, sum, 32u, is_saturated);
-        return sum_q27(base, sum + (int64_t)sixth * b + (int64_t)sixth * c + (int64_t)sixth * d, 32u, is_saturated);
+        return sum_q27(*mean, (int64_t)sixth * b + (int64_t)sixth * c + (int64_t)sixth * d, 32u, is_saturated);
     }
     sum = (((int64_t)base * ((int64_t)1 << 32)) | ((int64_t)1 << 31)) + (int64_t)sixth * (a + (b + c));
     *mean = sum_q27_of(sum, 32u, NULL);

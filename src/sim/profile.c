@@ -112,37 +112,53 @@ void profile_q27_derive(struct profile_q27 *derived, const struct profile *profi
 {
     const float per_step = fmath_min(profile->per_step, 2.0f);
     const float steps = per_step > 0.0f ? fmath_min(1.0f / per_step, STEPS_MAX) : 0.0f;
-    const float first = (0.5f - profile->start_fraction) * profile->per_step;
+    const float place = (0.5f - profile->start_fraction) * profile->per_step;
 
     derived->kind = profile->kind;
     derived->from = fixed_from_float(profile->from, 27);
     derived->to = fixed_from_float(profile->to, 27);
+    derived->first = fixed_from_float(profile->first, 30);
+    derived->second = fixed_from_float(profile->second, 30);
     derived->start = profile->start;
     derived->length = (uint32_t)steps + 1u;
-    derived->first = fixed_times_float(1, fmath_max(fmath_min(first, 1.0f), -1.0f), 60);
+    derived->place = fixed_times_float(1, fmath_max(fmath_min(place, 1.0f), -1.0f), 60);
     derived->per_step = fixed_times_float(1, per_step, 60);
     derived->turns_per_step = profile->turns_per_step;
+}
+
+/* A share of a value, Q30. */
+static int32_t share_of(int64_t value, int32_t share) { return (int32_t)fixed_shift_right(value * share, 30u); }
+
+static int32_t share_at_q27(const struct profile_q27 *profile, uint64_t step)
+{
+    return step == profile->start ? profile->first : step == profile->start + 1u ? profile->second : 1 << 30;
 }
 
 /* Within the ramp's length a place stays below 1 + 1 + 2, which Q60 holds. */
 static int32_t ramp_value_q27(const struct profile_q27 *profile, uint64_t step)
 {
     const uint64_t passed = step - profile->start;
-    const int64_t one = INT64_C(1) << 60;
     int64_t place;
 
-    if (passed > profile->length || profile->per_step == 0) {
+    if (passed > profile->length) {
         return profile->to;
     }
-    place = profile->first + (int64_t)passed * profile->per_step;
+    place = profile->place + (int64_t)passed * profile->per_step;
     if (place <= 0) {
         return profile->from;
     }
-    if (place >= one) {
+    if (place >= INT64_C(1) << 60) {
         return profile->to;
     }
-    return profile->from +
-           (int32_t)fixed_shift_right(((int64_t)profile->to - profile->from) * fixed_floor(place, 30u), 30u);
+    return profile->from + share_of((int64_t)profile->to - profile->from, (int32_t)fixed_floor(place, 30u));
+}
+
+static int32_t sine_value_q27(const struct profile_q27 *profile, uint64_t step)
+{
+    const uint64_t turns = step * profile->turns_per_step + (profile->turns_per_step >> 1);
+    const int32_t swing = share_of(profile->to, fmath_sine_turns_q30((uint32_t)(turns >> 32)));
+
+    return profile->from + share_of(swing, share_at_q27(profile, step));
 }
 
 int32_t profile_q27_moving_value(const struct profile_q27 *profile, uint64_t step)
@@ -153,15 +169,13 @@ int32_t profile_q27_moving_value(const struct profile_q27 *profile, uint64_t ste
     switch (profile->kind) {
     case PROFILE_RAMP:
         return ramp_value_q27(profile, step);
-    case PROFILE_SINE: {
-        const uint64_t turns = step * profile->turns_per_step + (profile->turns_per_step >> 1);
-
-        return profile->from + fixed_product(profile->to, fmath_sine_turns_q30((uint32_t)(turns >> 32)), 30u);
-    }
-    case PROFILE_CONSTANT:
+    case PROFILE_SINE:
+        return sine_value_q27(profile, step);
     case PROFILE_STEP:
+        return profile->from + share_of((int64_t)profile->to - profile->from, share_at_q27(profile, step));
+    case PROFILE_CONSTANT:
     default:
-        return profile->to;
+        return profile->from;
     }
 }
 

@@ -43,9 +43,10 @@ static inline float profile_value(const struct profile *profile, uint64_t step)
 struct profile_q27 {
     enum profile_kind kind;
     int32_t from, to;
+    int32_t first, second; /* shares in Q30; the second reaches 9/8 */
     uint32_t start;
     uint32_t length;         /* ramp: steps after which it is over */
-    int64_t first;           /* ramp: place of the middle of the step in which it starts; below 0 before it */
+    int64_t place;           /* ramp: of the middle of the step in which it starts; below 0 before it */
     int64_t per_step;        /* ramp: way of one step, 2 for anything faster */
     uint64_t turns_per_step; /* sine: as above */
 };

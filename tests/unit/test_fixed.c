@@ -65,8 +65,9 @@ static void check_ratio(void)
         is_bounded = is_bounded && ratio <= 1u << 30;
     }
     tap_check(worst <= 1.0f / 1073741824.0f, "a ratio has thirteen good bits however small it is");
-    tap_check(is_bounded && fixed_ratio_q30(UINT32_MAX, UINT32_MAX) == 1u << 30 && fixed_ratio_q30(1u, 1u) == 1u << 30 &&
-                  fixed_ratio_q30(0u, 1u) == 0u && fixed_ratio_q30(0u, UINT32_MAX) == 0u,
+    tap_check(is_bounded && fixed_ratio_q30(UINT32_MAX, UINT32_MAX) == 1u << 30 &&
+                  fixed_ratio_q30(1u, 1u) == 1u << 30 && fixed_ratio_q30(0u, 1u) == 0u &&
+                  fixed_ratio_q30(0u, UINT32_MAX) == 0u,
               "and never exceeds 1; its ends are exact");
 }
 
@@ -79,7 +80,8 @@ static void check_float(void)
                   fixed_times_float(3, 1.5f, 0) == 5 && fixed_times_float(-3, 1.5f, 0) == -5,
               "a product with a float is rounded, halves away from 0");
     tap_check(fixed_times_float(INT64_C(1) << 38, 16777215.0f, 0) == INT64_C(16777215) << 38, "its factor has 38 bits");
-    tap_check(fixed_times_float(1, 1e30f, 0) == INT64_C(1) << 62 && fixed_times_float(-1, 1e30f, 0) == -(INT64_C(1) << 62) &&
+    tap_check(fixed_times_float(1, 1e30f, 0) == INT64_C(1) << 62 &&
+                  fixed_times_float(-1, 1e30f, 0) == -(INT64_C(1) << 62) &&
                   fixed_times_float(1, fmath_from_bits(0xff800000u), -200) == -(INT64_C(1) << 62) &&
                   fixed_times_float(1, fmath_from_bits(0x7fc00000u), 0) == INT64_C(1) << 62,
               "what is too large is held, infinity and what is no number too");

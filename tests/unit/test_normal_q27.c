@@ -108,7 +108,8 @@ static void check_map(void)
     pad.normal.y += 1 << 25; /* not at rest, but so that it never lifts off */
     first = amplitude(&pad.normal);
     (void)run(&pad, plants_scaled(64u * 2000u, 64u * 50u));
-    tap_check_close(amplitude(&pad.normal) / first, 1.0f, 2e-5f, "the map of an undamped step turns and does not stretch");
+    tap_check_close(amplitude(&pad.normal) / first, 1.0f, 2e-5f,
+                    "the map of an undamped step turns and does not stretch");
 }
 
 /* Q = (w + Cn y/2)^2 + (1 - Cn^2/4) y^2 of the free motion decays like exp(-Cn t) exactly. */
