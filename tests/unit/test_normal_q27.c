@@ -65,6 +65,19 @@ static float amplitude(const struct normal_q27 *normal)
     return fmath_sqrt(d * d + w * w);
 }
 
+static void check_table(void)
+{
+    float worst = 0.0f;
+
+    for (uint32_t i = 0u; i < SINE_GRID / 4u; i++) {
+        worst = fmath_max(worst, fmath_abs((float)sine_quarter_q31[i] / 2147483648.0f - sine_f32(i)));
+    }
+    tap_check_close(worst, 0.0f, 1.2e-7f, "the table of integers is that of floats");
+    tap_check(sine_quarter_q31[0] == 0 && sine_quarter_q31[256] == INT32_MAX && sine_quarter_q31[128] == 1518500250 &&
+                  sine_quarter_q31[1] == 13176712,
+              "with 31 bits");
+}
+
 static void check_rk4_loss(const char *assignments, uint32_t periods)
 {
     struct pad pad = pad_of(assignments, 0.0f, 0.0f, 0.25f);
@@ -184,6 +197,7 @@ static void check_load_change(void)
 
 void test_normal_q27(void)
 {
+    check_table();
     check_rk4_loss(UNIT_SET "spp 16", 20u);
     check_rk4_loss(UNIT_SET "spp 32", 200u);
     check_rk4_loss(UNIT_SET "spp 64", plants_scaled(2000u, 1000u));
