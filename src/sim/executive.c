@@ -4,7 +4,10 @@
 #include "base/assert.h"
 #include "base/mem.h"
 
-enum { TICKS_PER_REPORT = 32 }; /* of a free run without news */
+enum {
+    TICKS_PER_REPORT = 32, /* of a free run without news */
+    MAIN_SHARE = 16        /* a tick that leaves main less than this part of its period counts as overrun */
+};
 
 static void write_report(struct executive *executive)
 {
@@ -103,7 +106,7 @@ void executive_book(struct executive *executive, uint32_t busy, uint32_t period,
     load->busy_max = busy > load->busy_max ? busy : load->busy_max;
     load->busy_sum += busy;
     load->period = period;
-    if (is_late) {
+    if (is_late || busy > period - period / MAIN_SHARE) {
         load->overruns++;
         executive->skips_next = true;
     }

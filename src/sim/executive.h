@@ -38,7 +38,7 @@ struct executive_order {
 /* What the interrupt's time went into. Clock counts are those of the program's clock. */
 struct executive_load {
     uint32_t ticks;    /* that did their work */
-    uint32_t overruns; /* ticks still at work when the next was due */
+    uint32_t overruns; /* ticks still at work past 15/16 of their period */
     uint32_t shed;     /* ticks skipped after an overrun so that main goes on */
     uint32_t busy_max; /* clock counts of the longest tick */
     uint64_t busy_sum; /* of all ticks */
