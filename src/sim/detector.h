@@ -119,7 +119,7 @@ void detector_reset(struct detector *detector, const struct detector_config *con
 /* Something changed: the verdict is unknown until the window is full again. [ISR] */
 void detector_restart(struct detector *detector, const struct detector_config *config);
 
-/* Books one step. Returns true when a frame's verdict is new. Cost: some 60 instructions, at most 16 comparisons more
+/* Books one step. Returns true when a frame's verdict is new. Cost: some 60 instructions, at most 8 comparisons more
  * while a search is under way. [ISR] */
 bool detector_push(struct detector *detector, const struct plant_output *output);
 
