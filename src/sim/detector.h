@@ -69,6 +69,7 @@ struct detector_verdict {
 
 struct detector_frame {
     int32_t x_max, x_min, v_max, v_min, w_max, w_min, acceleration;
+    int32_t y_max; /* largest contact, without which nothing squeals */
     uint64_t stick, slip_minus;
     uint64_t first_q15, last_q15; /* upward passages, steps since reset */
     uint32_t crossings;

@@ -7,11 +7,12 @@
 
 /* What the window says as a whole. */
 struct detector_window {
-    uint32_t speed;  /* half the range of v, Q4.27 */
-    uint32_t floor;  /* speeds below it are no motion worth a verdict */
-    uint32_t forced; /* speed that the normal oscillation explains */
-    uint32_t normal; /* half the range of w, the normal velocity, in the newest frame */
-    bool has_events; /* sticks or crosses now and then, but not always */
+    uint32_t speed;   /* half the range of v, Q4.27 */
+    uint32_t floor;   /* speeds below it are no motion worth a verdict */
+    uint32_t forced;  /* speed that the normal oscillation explains */
+    uint32_t normal;  /* half the range of w, the normal velocity, in the newest frame */
+    bool has_contact; /* the pad touches the disc at all */
+    bool has_events;  /* sticks or crosses now and then, but not always */
 };
 
 /* The newest frame has been closed; index is its place in frames. */
