@@ -68,7 +68,7 @@ def running_pairs(extra):
         streamed += firmware.samples
         status = firmware.ask("status")
         selftest = firmware.ask("selftest")
-    pairs += [(int(step), word) for step, word in streamed]
+    pairs += [(int(step), word) for step, _, word in streamed]
     return pairs, len(streamed), status, selftest
 
 
