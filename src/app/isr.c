@@ -1,6 +1,7 @@
 /* The tick: the executive's work, its time, the pin. Nothing here talks or waits. */
 #include "app/isr.h"
 
+#include "base/word.h"
 #include "hal_board.h"
 #include "hal_tick.h"
 
@@ -9,32 +10,41 @@ static struct executive *executive;
 /* The interrupt's, but for the baseline: main sets it while the timer stands still. */
 static struct {
     uint32_t rate_hz;
-    uint32_t period;     /* clock counts */
-    uint32_t last_clock; /* of the tick before, or of the start */
-    struct isr_ticks ticks;
+    uint32_t period;               /* clock counts */
+    uint32_t last_clock;           /* of the tick before, or of the start */
+    struct word counted, expected; /* ticks that came, ticks that should have */
 } timer;
 
 void isr_init(struct executive *which) { executive = which; }
 
-/* Whole periods since the tick before; one, if none was lost. */
-static void count_ticks(uint32_t now)
+/* Clock counts since the tick before; whole periods of them, one if none was lost, are expected ticks. While ticks are
+ * shed after an overrun some must get lost: that is counted there, and is no fault of the timer. */
+static uint32_t count_tick(uint32_t now)
 {
-    timer.ticks.counted++;
-    timer.ticks.expected += (now - timer.last_clock + timer.period / 2u) / timer.period;
+    const uint32_t elapsed = now - timer.last_clock;
+
+    word_write(&timer.counted, word_read(&timer.counted) + 1u);
+    word_write(&timer.expected,
+               word_read(&timer.expected) +
+                   (executive_is_behind(executive) ? 1u : (elapsed + timer.period / 2u) / timer.period));
     timer.last_clock = now;
+    return elapsed;
 }
 
 void app_tick(void)
 {
     const uint32_t entered = hal_clock_now();
     const bool is_due = hal_tick_take();
+    struct executive_tick_time time = {.period = timer.period};
+    bool has_worked;
 
     if (is_due) {
-        count_ticks(entered);
+        time.elapsed = count_tick(entered);
     }
-    executive_tick(executive, is_due);
+    has_worked = executive_tick(executive, is_due);
     if (is_due) {
-        executive_book(executive, hal_clock_now() - entered, timer.period, hal_tick_is_late());
+        time.busy = hal_clock_now() - entered;
+        executive_book(executive, &time, has_worked && hal_tick_is_late());
         if (!executive_wants_tick(executive)) {
             hal_tick_stop();
         }
@@ -49,7 +59,7 @@ static void start_timer(uint32_t rate_hz)
     }
     hal_tick_stop();
     timer.rate_hz = rate_hz;
-    timer.period = hal_clock_hz() / rate_hz;
+    timer.period = (hal_clock_hz() + rate_hz / 2u) / rate_hz;
     timer.last_clock = hal_clock_now();
     hal_tick_start(rate_hz);
 }
@@ -66,4 +76,4 @@ void isr_follow(void)
     }
 }
 
-struct isr_ticks isr_ticks(void) { return timer.ticks; }
+struct isr_ticks isr_ticks(void) { return (struct isr_ticks){word_read(&timer.counted), word_read(&timer.expected)}; }

@@ -105,10 +105,15 @@ enum error params_parse(const struct params_info *info, const char *text, size_t
     return decimal_parse_f32(text, length, value) ? ERROR_OK : ERROR_BAD_NUMBER;
 }
 
-/* Choices and counts hold whole numbers. */
+/* Choices hold whole numbers, and what says so in its unit. */
 static bool is_whole(const struct params_info *info)
 {
-    return params_is_choice(info) || is_named(info->unit, "count", 5u);
+    const char *unit = info->unit;
+
+    while (*unit != '\0' && *unit != ',') {
+        unit++;
+    }
+    return params_is_choice(info) || is_named(info->unit, "count", 5u) || is_named(unit, ", whole", 7u);
 }
 
 struct params_problem params_check(const struct params *params)

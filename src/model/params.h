@@ -9,7 +9,12 @@
 
 #include "base/errors.h"
 
-enum { PARAMS_VERSION = 1 };
+enum {
+#define TABLE_VERSION(version) PARAMS_VERSION = version
+#define PARAM(...)
+#include "model/params.def"
+#undef PARAM
+};
 
 struct params {
 #define PARAM(id, field, symbol, unit, standard, low, high, change, help) float field;

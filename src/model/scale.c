@@ -129,6 +129,7 @@ static void derive_groups(const struct params *params, float impedance, struct s
     scale->has_floor = params->friction_floor_ratio > -1e29f;
     scale->friction_floor = scale->has_floor ? params->friction_floor_ratio * friction_unit : 0.0f;
     scale->normal_damping = params->damping_normal_n_s_per_m / impedance;
+    scale->contact = (uint8_t)params->contact;
 }
 
 struct params_problem scale_derive(const struct params *params, const struct scale *latched, struct scale *scale)

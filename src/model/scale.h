@@ -41,6 +41,7 @@ struct scale {
     float friction_floor; /* mu_floor in the unit of mu; meaningful if has_floor */
     float normal_damping; /* Cn = cn/sqrt(m ke) */
     bool has_floor;
+    uint8_t contact;       /* CONTACT_..., params.h */
     uint32_t length_shift; /* integer readers see x/2^length_shift, so that it fits where Z2 is small */
 
     uint32_t steps_per_period; /* spp */

@@ -42,6 +42,17 @@ void console_refuse_usage(struct console *console)
     console_end(console);
 }
 
+void console_refuse_count(struct console *console, const char *key, struct token word, uint32_t high)
+{
+    console_begin_error(console, ERROR_OUT_OF_RANGE);
+    text_key_text(console->text, key, "");
+    token_write(console->text, word);
+    text_write(console->text, ": 1 .. ");
+    text_u64(console->text, high);
+    text_write(console->text, ", a whole number");
+    console_end(console);
+}
+
 static void answer_plain(struct console *console)
 {
     console_begin_ok(console);
@@ -129,7 +140,7 @@ static void command_defaults(struct console *console) { settings_defaults(consol
 static void command_reset(struct console *console) { settings_reset(console); }
 static void command_stream(struct console *console) { streaming_obey(console); }
 
-static bool is_in_fault(const struct console *console)
+bool console_is_in_fault(const struct console *console)
 {
     struct executive_report report;
 
@@ -141,7 +152,7 @@ static void command_run(struct console *console)
 {
     const struct sim_plan *plan = executive_plan(console->executive);
 
-    if (is_in_fault(console)) {
+    if (console_is_in_fault(console)) {
         console_refuse_fault(console);
         return;
     }
@@ -168,15 +179,10 @@ static bool read_count(struct console *console, uint32_t high, uint32_t *count)
         return false;
     }
     if (!token_number(word, 1u, high, count)) {
-        console_begin_error(console, ERROR_OUT_OF_RANGE);
-        text_key_text(console->text, token_is(token_first(console->command), "step") ? "n" : "periods", word.start);
-        text_write(console->text, ": 1 .. ");
-        text_u64(console->text, high);
-        text_write(console->text, ", a whole number");
-        console_end(console);
+        console_refuse_count(console, token_is(token_first(console->command), "step") ? "n" : "periods", word, high);
         return false;
     }
-    if (is_in_fault(console)) {
+    if (console_is_in_fault(console)) {
         console_refuse_fault(console);
         return false;
     }

@@ -4,7 +4,12 @@
 
 #include "protocol/console.h"
 
-enum { COMMANDS_VERSION = 1 };
+enum {
+#define TABLE_VERSION(version) COMMANDS_VERSION = version
+#define COMMAND(...)
+#include "protocol/commands.def"
+#undef COMMAND
+};
 
 /* Obeys the line in console->command: answers it, or starts a task that will. [MAIN] */
 void commands_obey(struct console *console);

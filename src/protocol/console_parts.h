@@ -16,6 +16,12 @@ void console_refuse(struct console *console, enum error error, struct token word
 /* "error usage <command and its arguments>" */
 void console_refuse_usage(struct console *console);
 
+/* "error out-of-range <key>=<word>: 1 .. <high>, a whole number" */
+void console_refuse_count(struct console *console, const char *key, struct token word, uint32_t high);
+
+/* Has the plant left its domain, and is frozen? */
+bool console_is_in_fault(const struct console *console);
+
 /* "error in-fault", with step and time. */
 void console_refuse_fault(struct console *console);
 
@@ -46,6 +52,9 @@ void console_halt(struct console *console);
 /* Commands with a file of their own: the stream, */
 void streaming_obey(struct console *console);
 void streaming_begin(struct console *console);
+
+/* Can the stream under way go on with this set's tick and substeps? If not, that has been answered. */
+bool streaming_admits(struct console *console, const struct params *params);
 
 /* and the set. */
 void settings_list(struct console *console);

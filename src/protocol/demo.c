@@ -27,8 +27,12 @@ void demo_obey(struct console *console)
     const struct token word = token_first(console->arguments);
     uint32_t number = 0u;
 
-    if (word.length != 0u && (!token_number(word, 1u, BASE_COUNT(acts), &number) || token_next(word).length != 0u)) {
+    if (token_next(word).length != 0u) {
         console_refuse_usage(console);
+        return;
+    }
+    if (word.length != 0u && !token_number(word, 1u, BASE_COUNT(acts), &number)) {
+        console_refuse_count(console, "act", word, BASE_COUNT(acts));
         return;
     }
     console->demo.act = number == 0u ? 0u : (uint8_t)(number - 1u);

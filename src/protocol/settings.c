@@ -6,13 +6,6 @@
 
 static const char no_parameter[] = "no parameter has this name; list shows them";
 
-static void write_word(struct text *text, struct token word)
-{
-    for (size_t i = 0u; i < word.length; i++) {
-        text_put(text, word.start[i]);
-    }
-}
-
 static void list_one(struct console *console, const struct params_info *info)
 {
     struct text *text = console->text;
@@ -74,10 +67,41 @@ void settings_get(struct console *console)
     console_end(console);
 }
 
+/* What was typed for a parameter; empty if it was not named. */
+static struct token typed_value(const struct console *console, const struct params_info *info)
+{
+    struct token word = token_first(console->arguments);
+
+    for (; word.length != 0u; word = token_next(token_next(word))) {
+        if (params_find(word.start, word.length) == info) {
+            return token_next(word);
+        }
+    }
+    return word;
+}
+
+/* A parameter that is named twice leaves open what is wanted. Returns it where it comes first, or nothing. */
+static struct token named_twice(const struct console *console)
+{
+    struct token word = token_first(console->arguments);
+
+    for (; word.length != 0u; word = token_next(token_next(word))) {
+        const struct params_info *info = params_find(word.start, word.length);
+
+        for (struct token later = token_next(token_next(word)); later.length != 0u;
+             later = token_next(token_next(later))) {
+            if (info != NULL && params_find(later.start, later.length) == info) {
+                return word;
+            }
+        }
+    }
+    return word;
+}
+
 static void refuse_problem(struct console *console, const struct params_problem *problem, const struct params *wanted)
 {
     console_begin_error(console, problem->error);
-    values_write_problem(console->text, problem, wanted);
+    values_write_problem(console->text, problem, wanted, typed_value(console, problem->info));
     console_end(console);
 }
 
@@ -94,13 +118,13 @@ static void refuse_word(struct console *console, enum error error, const struct 
     }
     console_begin_error(console, error);
     text_key_text(console->text, info->symbol, "");
-    write_word(console->text, bad);
+    token_write(console->text, bad);
     text_write(console->text, ": ");
-    if (error == ERROR_OUT_OF_RANGE) {
-        values_write_allowed(console->text, info, info->low, info->high);
-    } else {
+    if (error == ERROR_BAD_NUMBER) {
         text_write(console->text, error_text(error));
+        text_write(console->text, "; ");
     }
+    values_write_allowed(console->text, info, info->low, info->high);
     console_end(console);
 }
 
@@ -127,12 +151,24 @@ void settings_set(struct console *console)
     struct params params = *executive_params(console->executive);
     const struct params_info *info;
     struct params_problem problem;
-    struct token bad = {"", 0u};
+    struct token bad;
     enum error error;
 
+    if (console_is_in_fault(console)) {
+        console_refuse_fault(console);
+        return;
+    }
+    bad = named_twice(console);
+    if (bad.length != 0u) {
+        console_refuse(console, ERROR_USAGE, bad, "named twice; once is enough");
+        return;
+    }
     error = presets_assign(&params, console->arguments, &info, &bad.start, &bad.length);
     if (error != ERROR_OK || token_count_is(console->arguments, 0u)) {
         refuse_word(console, error == ERROR_OK ? ERROR_USAGE : error, info, bad);
+        return;
+    }
+    if (!streaming_admits(console, &params)) {
         return;
     }
     problem = order(console, &params);
@@ -146,8 +182,12 @@ void settings_set(struct console *console)
 /* Stops and resets to a set, the counters of the run included. */
 static void restart(struct console *console, const struct params *params)
 {
-    const struct params_problem problem = executive_reset(console->executive, params);
+    struct params_problem problem;
 
+    if (!streaming_admits(console, params)) {
+        return;
+    }
+    problem = executive_reset(console->executive, params);
     if (problem.error != ERROR_OK) {
         refuse_problem(console, &problem, params);
         return;
@@ -232,7 +272,7 @@ void settings_answer(struct console *console, const struct executive_report *rep
         write_assigned(console, executive_params(console->executive));
     } else if (token_is(name, "preset")) {
         text_put(console->text, ' ');
-        write_word(console->text, token_first(console->arguments));
+        token_write(console->text, token_first(console->arguments));
     }
     text_key_u64(console->text, "generation", report->generation);
     if (token_is(name, "set")) {

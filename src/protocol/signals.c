@@ -33,16 +33,16 @@ static const char *mode_name(const struct sample *sample)
 }
 
 /* Only bilateral contact, the paper's, can pull. */
-static float contact_force_n(const struct sample *sample, const struct scale *scale, int contact)
+static float contact_force_n(const struct sample *sample, const struct scale *scale)
 {
     const float force_n = sample_value(sample, sample->y) * scale->load_n;
 
-    return contact == CONTACT_BILATERAL || force_n > 0.0f ? force_n : 0.0f;
+    return scale->contact == CONTACT_BILATERAL || force_n > 0.0f ? force_n : 0.0f;
 }
 
-static float friction_ratio(const struct sample *sample, const struct scale *scale, int contact)
+static float friction_ratio(const struct sample *sample, const struct scale *scale)
 {
-    return sample_value(sample, sample->friction) * scale->force_n / contact_force_n(sample, scale, contact);
+    return sample_value(sample, sample->friction) * scale->force_n / contact_force_n(sample, scale);
 }
 
 static void append_COUNT(struct text *text, const struct scale *scale, uint64_t value)
@@ -79,8 +79,7 @@ static void append_BITS(struct text *text, const struct scale *scale, uint32_t v
     text_hex32(text, value);
 }
 
-void signals_append(struct text *text, enum signal signal, const struct sample *sample, const struct scale *scale,
-                    int contact)
+void signals_append(struct text *text, enum signal signal, const struct sample *sample, const struct scale *scale)
 {
     switch (signal) {
 #define SIGNAL(id, field, name, unit, width, form, value, help) \

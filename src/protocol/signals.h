@@ -10,6 +10,13 @@
 #include "model/scale.h"
 #include "sim/sample.h"
 
+enum {
+#define TABLE_VERSION(version) SIGNALS_VERSION = version
+#define SIGNAL(...)
+#include "protocol/signals.def"
+#undef SIGNAL
+};
+
 enum signal {
 #define SIGNAL(id, field, name, unit, width, form, value, help) SIGNAL_##field = id,
 #include "protocol/signals.def"
@@ -17,10 +24,7 @@ enum signal {
     SIGNAL_COUNT
 };
 
-enum {
-    SIGNALS_VERSION = 1,
-    SIGNALS_DEFAULT = 11 /* so many from the head of the table where none are named */
-};
+enum { SIGNALS_DEFAULT = 11 }; /* so many from the head of the table where none are named */
 
 enum signal_form { SIGNAL_FORM_COUNT, SIGNAL_FORM_TIME, SIGNAL_FORM_REAL, SIGNAL_FORM_WORD, SIGNAL_FORM_BITS };
 
@@ -36,9 +40,8 @@ extern const struct signal_info signals_table[SIGNAL_COUNT];
 /* Finds a signal by its name of the given length; SIGNAL_COUNT if there is none. [MAIN] */
 enum signal signals_find(const char *name, size_t length);
 
-/* Appends the value as text, at most width characters; nan where there is none. scale is that of the sample's reset,
- * contact the set's (params.h). [MAIN] */
-void signals_append(struct text *text, enum signal signal, const struct sample *sample, const struct scale *scale,
-                    int contact);
+/* Appends the value as text, at most width characters; nan where there is none. scale is that of the
+ * sample's reset. [MAIN] */
+void signals_append(struct text *text, enum signal signal, const struct sample *sample, const struct scale *scale);
 
 #endif

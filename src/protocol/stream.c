@@ -8,7 +8,7 @@
 enum {
     BITS_PER_BYTE = 10,  /* 8N1 on the wire */
     TELEPLOT_FRAME = 8,  /* >, two colons, the two bytes of the paragraph sign or |t, CR LF */
-    TELEPLOT_PHASE = 18, /* >phase::|xy, CR LF and something to spare */
+    TELEPLOT_PHASE = 18, /* >phase:::|xy, CR LF and something to spare */
     TELEPLOT_TIME = 16,
     TELEPLOT_UNIT = 4,
     MS_PER_S = 1000
@@ -33,11 +33,23 @@ static bool has_signal(const struct stream_setup *setup, enum signal signal)
     return false;
 }
 
-/* "x,xd,N" */
+static void append_signal(struct stream_setup *setup, enum signal signal)
+{
+    if (!has_signal(setup, signal)) {
+        setup->signals[setup->count++] = (uint8_t)signal;
+    }
+}
+
+/* "x,xd,N"; in CSV step and t lead, wherever they were named. */
 static enum error parse_signals(struct token list, struct stream_setup *setup, struct token *bad)
 {
     const char *end = list.start + list.length;
+    uint32_t named = 0u;
 
+    if (setup->form == STREAM_CSV) {
+        append_signal(setup, SIGNAL_STEP);
+        append_signal(setup, SIGNAL_T);
+    }
     while (list.start <= end) {
         struct token name = {list.start, 0u};
         enum signal signal;
@@ -50,10 +62,11 @@ static enum error parse_signals(struct token list, struct stream_setup *setup, s
         if (signal == SIGNAL_COUNT) {
             return ERROR_UNKNOWN_NAME;
         }
-        if (has_signal(setup, signal)) {
+        if ((named & (1u << (unsigned)signal)) != 0u) {
             return ERROR_USAGE;
         }
-        setup->signals[setup->count++] = (uint8_t)signal;
+        named |= 1u << (unsigned)signal;
+        append_signal(setup, signal);
         list.start += name.length + 1u;
     }
     return ERROR_OK;
@@ -87,7 +100,9 @@ enum error stream_parse(const char *words, struct stream_setup *setup, struct to
     if (error == ERROR_OK && token_is(word, "every")) {
         word = token_next(word);
         *bad = word;
-        error = token_number(word, 1u, STREAM_EVERY_MAX, &setup->every) ? ERROR_OK : ERROR_USAGE;
+        error = word.length == 0u                                         ? ERROR_USAGE
+                : token_number(word, 1u, STREAM_EVERY_MAX, &setup->every) ? ERROR_OK
+                                                                          : ERROR_OUT_OF_RANGE;
         word = token_next(word);
     }
     if (error == ERROR_OK && token_is(word, "force")) {
@@ -111,7 +126,7 @@ static bool is_portrait(const struct stream_setup *setup)
     return has_signal(setup, SIGNAL_X) && has_signal(setup, SIGNAL_XD);
 }
 
-/* What of a setup becomes a series over time in Teleplot. */
+/* What of a setup becomes a series over time in Teleplot, besides the step, which always is one. */
 static bool is_series(const struct stream_setup *setup, enum signal signal)
 {
     if (signal == SIGNAL_STEP || signal == SIGNAL_T) {
@@ -140,12 +155,17 @@ static uint32_t csv_bytes(const struct stream_setup *setup)
     return bytes;
 }
 
+static uint32_t series_bytes(enum signal signal)
+{
+    return TELEPLOT_FRAME + TELEPLOT_TIME + TELEPLOT_UNIT + name_length(signal) + signals_table[signal].width;
+}
+
 static uint32_t teleplot_bytes(const struct stream_setup *setup)
 {
-    uint32_t bytes = 0u;
+    uint32_t bytes = series_bytes(SIGNAL_STEP);
 
     if (is_portrait(setup)) {
-        bytes += TELEPLOT_PHASE;
+        bytes += TELEPLOT_PHASE + TELEPLOT_TIME;
         bytes += signals_table[SIGNAL_X].width;
         bytes += signals_table[SIGNAL_XD].width;
     }
@@ -153,8 +173,7 @@ static uint32_t teleplot_bytes(const struct stream_setup *setup)
         const enum signal signal = (enum signal)setup->signals[i];
 
         if (is_series(setup, signal)) {
-            bytes += TELEPLOT_FRAME + TELEPLOT_TIME + TELEPLOT_UNIT;
-            bytes += name_length(signal) + signals_table[signal].width;
+            bytes += series_bytes(signal);
         }
     }
     return bytes;
@@ -176,14 +195,23 @@ struct stream_load stream_load(const struct stream_setup *setup, float steps_per
     return load;
 }
 
+static bool has_unit(const struct signal_info *info) { return info->unit[0] != '1'; }
+
 void stream_header(const struct stream *stream, struct text *text)
 {
     if (stream->setup.form != STREAM_CSV) {
         return;
     }
     for (size_t i = 0u; i < stream->setup.count; i++) {
+        const struct signal_info *info = &signals_table[stream->setup.signals[i]];
+
         text_put(text, i == 0u ? '#' : ',');
-        text_write(text, signals_table[stream->setup.signals[i]].name);
+        text_write(text, info->name);
+        if (has_unit(info)) {
+            text_put(text, '[');
+            text_write(text, info->unit);
+            text_put(text, ']');
+        }
     }
     text_end_line(text);
 }
@@ -191,42 +219,49 @@ void stream_header(const struct stream *stream, struct text *text)
 bool stream_has_sample(const struct executive *executive) { return ring_fill(&executive->samples) != 0u; }
 
 static void write_csv(const struct stream_setup *setup, struct text *text, const struct sample *sample,
-                      const struct scale *scale, int contact)
+                      const struct scale *scale)
 {
     for (size_t i = 0u; i < setup->count; i++) {
         if (i > 0u) {
             text_put(text, ',');
         }
-        signals_append(text, (enum signal)setup->signals[i], sample, scale, contact);
+        signals_append(text, (enum signal)setup->signals[i], sample, scale);
     }
     text_end_line(text);
 }
 
+static void write_ms(struct text *text, const struct sample *sample, const struct scale *scale)
+{
+    text_product(text, sample->step * MS_PER_S, scale->step_s, DECIMAL_DIGITS_EXACT);
+}
+
+/* >phase:<x>:<xd>:<ms>|xy */
 static void write_portrait(struct text *text, const struct sample *sample, const struct scale *scale)
 {
     text_write(text, ">phase:");
-    signals_append(text, SIGNAL_X, sample, scale, CONTACT_BILATERAL);
+    signals_append(text, SIGNAL_X, sample, scale);
     text_put(text, ':');
-    signals_append(text, SIGNAL_XD, sample, scale, CONTACT_BILATERAL);
+    signals_append(text, SIGNAL_XD, sample, scale);
+    text_put(text, ':');
+    write_ms(text, sample, scale);
     text_write(text, "|xy");
     text_end_line(text);
 }
 
 /* >N:<ms>:3000§N, >mode:<ms>:stick|t */
-static void write_series(struct text *text, enum signal signal, const struct sample *sample, const struct scale *scale,
-                         int contact)
+static void write_series(struct text *text, enum signal signal, const struct sample *sample, const struct scale *scale)
 {
     const struct signal_info *info = &signals_table[signal];
 
     text_put(text, '>');
     text_write(text, info->name);
     text_put(text, ':');
-    text_product(text, sample->step * MS_PER_S, scale->step_s, DECIMAL_DIGITS_EXACT);
+    write_ms(text, sample, scale);
     text_put(text, ':');
-    signals_append(text, signal, sample, scale, contact);
+    signals_append(text, signal, sample, scale);
     if (info->form == SIGNAL_FORM_WORD || info->form == SIGNAL_FORM_BITS) {
         text_write(text, "|t");
-    } else if (info->unit[0] != '1') {
+    } else if (has_unit(info)) {
         text_write(text, "\xc2\xa7");
         text_write(text, info->unit);
     }
@@ -234,14 +269,15 @@ static void write_series(struct text *text, enum signal signal, const struct sam
 }
 
 static void write_teleplot(const struct stream_setup *setup, struct text *text, const struct sample *sample,
-                           const struct scale *scale, int contact)
+                           const struct scale *scale)
 {
+    write_series(text, SIGNAL_STEP, sample, scale);
     if (is_portrait(setup)) {
         write_portrait(text, sample, scale);
     }
     for (size_t i = 0u; i < setup->count; i++) {
         if (is_series(setup, (enum signal)setup->signals[i])) {
-            write_series(text, (enum signal)setup->signals[i], sample, scale, contact);
+            write_series(text, (enum signal)setup->signals[i], sample, scale);
         }
     }
 }
@@ -250,7 +286,6 @@ void stream_write(struct stream *stream, struct executive *executive, struct tex
 {
     struct sample sample;
     const struct scale *scale;
-    const int contact = (int)executive_params(executive)->contact;
 
     if (!ring_pop(&executive->samples, &sample)) {
         return;
@@ -259,9 +294,9 @@ void stream_write(struct stream *stream, struct executive *executive, struct tex
     if (scale == NULL) {
         stream->without_scale++;
     } else if (stream->setup.form == STREAM_CSV) {
-        write_csv(&stream->setup, text, &sample, scale, contact);
+        write_csv(&stream->setup, text, &sample, scale);
     } else if (stream->setup.form == STREAM_TELEPLOT) {
-        write_teleplot(&stream->setup, text, &sample, scale, contact);
+        write_teleplot(&stream->setup, text, &sample, scale);
     }
 }
 

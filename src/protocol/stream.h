@@ -44,8 +44,8 @@ struct stream {
 /* No stream. [INIT] */
 void stream_init(struct stream *stream);
 
-/* Reads "csv|teleplot [signals] [every N] [force]". USAGE or UNKNOWN_NAME leave *setup undefined; *bad is the word to
- * blame. [MAIN] */
+/* Reads "csv|teleplot [signals] [every N] [force]". USAGE, UNKNOWN_NAME or OUT_OF_RANGE, which means N, leave *setup
+ * undefined; *bad is the word to blame. [MAIN] */
 enum error stream_parse(const char *words, struct stream_setup *setup, struct token *bad);
 
 /* steps_per_s is the rate of the plant, baud that of the line, at ten bits a byte. [MAIN, pure] */
@@ -54,7 +54,7 @@ struct stream_load stream_load(const struct stream_setup *setup, float steps_per
 /* "csv", "teleplot", "off". [MAIN] */
 const char *stream_form_name(enum stream_form form);
 
-/* The line of names, "#step,t,x"; nothing but for CSV. [MAIN] */
+/* The line of names with their units, "#step,t[s],x[m]"; nothing but for CSV. [MAIN] */
 void stream_header(const struct stream *stream, struct text *text);
 
 /* Is a sample waiting? [MAIN] */

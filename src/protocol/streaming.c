@@ -1,17 +1,16 @@
 /* The command stream. */
 #include "protocol/console_parts.h"
 
-static float steps_per_s(const struct console *console)
+static struct stream_load load_at(const struct console *console, const struct stream_setup *setup,
+                                  const struct params *params)
 {
-    const struct params *params = executive_params(console->executive);
-
-    return params->tick_hz * params->steps_per_tick;
+    return stream_load(setup, params->tick_hz * params->steps_per_tick, console->identity->baud);
 }
 
 static void answer(struct console *console)
 {
     const struct stream_setup *setup = &console->stream.setup;
-    const struct stream_load load = stream_load(setup, steps_per_s(console), console->identity->baud);
+    const struct stream_load load = load_at(console, setup, executive_params(console->executive));
 
     console_begin_ok(console);
     text_put(console->text, ' ');
@@ -24,6 +23,37 @@ static void answer(struct console *console)
         text_key_u64(console->text, "smallest", load.smallest);
     }
     console_end(console);
+}
+
+static bool is_overload(const struct stream_setup *setup, struct stream_load load)
+{
+    return setup->form != STREAM_OFF && setup->every != 0u && setup->every < load.smallest && !setup->is_forced;
+}
+
+static void refuse_overload(struct console *console, const struct stream_setup *setup, struct stream_load load,
+                            const char *why)
+{
+    console_begin_error(console, ERROR_LINE_OVERLOAD);
+    text_key_u64(console->text, "every", setup->every);
+    text_key_u64(console->text, "line_bytes", load.sample_bytes);
+    text_key_u64(console->text, "load", load.percent);
+    text_put(console->text, '%');
+    text_key_u64(console->text, "smallest", load.smallest);
+    text_write(console->text, ": ");
+    text_write(console->text, why);
+    console_end(console);
+}
+
+bool streaming_admits(struct console *console, const struct params *params)
+{
+    const struct stream_setup *setup = &console->stream.setup;
+    const struct stream_load load = load_at(console, setup, params);
+
+    if (is_overload(setup, load)) {
+        refuse_overload(console, setup, load, "at this pace; stream off, or stream anew with a larger every or force");
+        return false;
+    }
+    return true;
 }
 
 /* The samples of the stream before are out, or there was none. */
@@ -52,22 +82,11 @@ static void refuse(struct console *console, enum error error, struct token bad)
 {
     if (error == ERROR_USAGE) {
         console_refuse_usage(console);
+    } else if (error == ERROR_OUT_OF_RANGE) {
+        console_refuse_count(console, "every", bad, STREAM_EVERY_MAX);
     } else {
         console_refuse(console, error, bad, "no signal has this name; help stream lists them");
     }
-}
-
-static void refuse_overload(struct console *console, const struct stream_setup *setup, struct stream_load load)
-{
-    console_begin_error(console, ERROR_LINE_OVERLOAD);
-    text_key_u64(console->text, "every", setup->every);
-    text_key_u64(console->text, "line_bytes", load.sample_bytes);
-    text_key_u64(console->text, "load", load.percent);
-    text_put(console->text, '%');
-    text_key_u64(console->text, "smallest", load.smallest);
-    text_write(console->text, ": ");
-    text_write(console->text, error_text(ERROR_LINE_OVERLOAD));
-    console_end(console);
 }
 
 static void start(struct console *console)
@@ -81,9 +100,9 @@ static void start(struct console *console)
         refuse(console, error, bad);
         return;
     }
-    load = stream_load(&setup, steps_per_s(console), console->identity->baud);
-    if (setup.every != 0u && setup.every < load.smallest && !setup.is_forced) {
-        refuse_overload(console, &setup, load);
+    load = load_at(console, &setup, executive_params(console->executive));
+    if (is_overload(&setup, load)) {
+        refuse_overload(console, &setup, load, error_text(ERROR_LINE_OVERLOAD));
         return;
     }
     setup.every = setup.every != 0u ? setup.every : load.smallest;

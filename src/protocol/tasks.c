@@ -49,6 +49,9 @@ enum console_progress console_go_on(struct console *console, uint32_t slice, str
     executive_report(executive, report);
     if (report->now.is_fault != 0u) {
         executive_stop(executive);
+        if (!console->told.is_fault || console->told.epoch != report->now.epoch) {
+            return CONSOLE_ADVANCES; /* the notice comes before the answer */
+        }
         return stream_has_sample(executive) ? CONSOLE_WAITS : CONSOLE_FAULTS;
     }
     if (executive_credit(executive) != 0u || report->now.step != steps->reached) {
@@ -123,7 +126,7 @@ static void answer_step(struct console *console, const struct executive_report *
     text_key_u64(console->text, "done", console->steps.total);
     for (unsigned i = 0u; i < SIGNALS_DEFAULT; i++) {
         text_key_text(console->text, signals_table[i].name, "");
-        signals_append(console->text, (enum signal)i, &report->now, &plan->scale, (int)plan->params.contact);
+        signals_append(console->text, (enum signal)i, &report->now, &plan->scale);
     }
     text_key_hex32(console->text, "hash", report->now.hash);
     console_end(console);

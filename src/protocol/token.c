@@ -53,6 +53,13 @@ bool token_count_is(const char *text, unsigned count)
     return word.length == 0u && count == 0u;
 }
 
+void token_write(struct text *text, struct token word)
+{
+    for (size_t i = 0u; i < word.length; i++) {
+        text_put(text, word.start[i]);
+    }
+}
+
 bool token_number(struct token word, uint32_t low, uint32_t high, uint32_t *value)
 {
     uint64_t number;

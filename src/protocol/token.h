@@ -6,6 +6,8 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include "base/text.h"
+
 struct token {
     const char *start;
     size_t length; /* 0 at the end of the text */
@@ -26,6 +28,9 @@ bool token_is_held(struct token part, const char *text);
 
 /* Has a text exactly so many words? */
 bool token_count_is(const char *text, unsigned count);
+
+/* Appends the word. */
+void token_write(struct text *text, struct token word);
 
 /* Reads a whole number in low .. high. */
 bool token_number(struct token word, uint32_t low, uint32_t high, uint32_t *value);

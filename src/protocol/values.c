@@ -4,7 +4,6 @@
 #include "base/compiler.h"
 #include "base/fmath.h"
 #include "model/scale.h"
-#include "protocol/token.h"
 
 enum { DIGITS = 4 };
 
@@ -68,7 +67,7 @@ void values_write_unit_word(struct text *text, const struct params_info *info)
         write_names(text, info);
         return;
     }
-    for (const char *c = info->unit; *c != '\0'; c++) {
+    for (const char *c = info->unit; *c != '\0' && *c != ','; c++) {
         text_put(text, *c == ' ' ? '.' : *c);
     }
 }
@@ -132,7 +131,8 @@ static void write_reason(struct text *text, const struct params_problem *problem
     write_hint(text, problem);
 }
 
-void values_write_problem(struct text *text, const struct params_problem *problem, const struct params *wanted)
+void values_write_problem(struct text *text, const struct params_problem *problem, const struct params *wanted,
+                          struct token typed)
 {
     if (problem->info == NULL) {
         text_write(text, ": ");
@@ -142,7 +142,11 @@ void values_write_problem(struct text *text, const struct params_problem *proble
     text_put(text, ' ');
     text_write(text, problem->info->symbol);
     text_put(text, '=');
-    values_write(text, problem->info, params_value(wanted, problem->info));
+    if (typed.length != 0u) {
+        token_write(text, typed);
+    } else {
+        values_write(text, problem->info, params_value(wanted, problem->info));
+    }
     text_write(text, ": ");
     write_reason(text, problem, wanted);
 }

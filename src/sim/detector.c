@@ -166,6 +166,7 @@ static void book_sample(struct detector *detector, const struct plant_output *ou
     widen(output->x, &now->x_min, &now->x_max);
     widen(output->v, &now->v_min, &now->v_max);
     widen(output->w, &now->w_min, &now->w_max);
+    now->y_max = output->y > now->y_max ? output->y : now->y_max;
     if (change > now->acceleration || -change > now->acceleration) {
         now->acceleration = change < 0 ? -change : change;
     }

@@ -7,11 +7,12 @@
 
 /* What the window says as a whole. */
 struct detector_window {
-    uint32_t speed;  /* half the range of v, Q4.27 */
-    uint32_t floor;  /* speeds below it are no motion worth a verdict */
-    uint32_t forced; /* speed that the normal oscillation explains */
-    uint32_t normal; /* half the range of w, the normal velocity, in the newest frame */
-    bool has_events; /* sticks or crosses now and then, but not always */
+    uint32_t speed;   /* half the range of v, Q4.27 */
+    uint32_t floor;   /* speeds below it are no motion worth a verdict */
+    uint32_t forced;  /* speed that the normal oscillation explains */
+    uint32_t normal;  /* half the range of w, the normal velocity, in the newest frame */
+    bool has_contact; /* the pad touches the disc at all */
+    bool has_events;  /* sticks or crosses now and then, but not always */
 };
 
 /* The newest frame has been closed; index is its place in frames. */
@@ -23,7 +24,7 @@ struct detector_window detector_rules_window(const struct detector *detector);
 /* Starts the search for a period, or names the motion at once where none is needed. */
 void detector_search_start(struct detector *detector, const struct detector_window *window);
 
-/* Goes on with it: at most 16 comparisons. */
+/* Goes on with it: at most 8 comparisons. */
 void detector_search_continue(struct detector *detector);
 
 static inline struct detector_frame *detector_newest_frame(struct detector *detector)

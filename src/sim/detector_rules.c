@@ -11,7 +11,8 @@ enum {
     FLOOR_SHIFT = 6,       /* motion below 1/64 of the disc's speed is none */
     FLOOR_MIN = 1 << 12,
     FLOOR_DISC_STOPPED = 1 << 17,
-    SHARE_LEAST_SHIFT = 20 /* a share within 1e-6 of none or all is none or all */
+    CONTACT_LEAST = 1 << 17, /* contact below 1/1024 of the largest load is none */
+    SHARE_LEAST_SHIFT = 20   /* a share within 1e-6 of none or all is none or all */
 };
 
 /* Steps of a frame as a power of two. */
@@ -119,14 +120,23 @@ static void gather_window(struct detector *detector)
     verdict->cycle_steps_q15 = last - first;
 }
 
+/* Slip against the disc's sense; under a stopped disc the lesser of both senses. */
+static uint64_t slip_against(const struct detector *detector, const struct detector_frame *frame, uint64_t whole)
+{
+    const uint64_t slip_plus = whole - frame->stick - frame->slip_minus;
+
+    if (detector->verdict.disc == 0) {
+        return slip_plus < frame->slip_minus ? slip_plus : frame->slip_minus;
+    }
+    return detector->verdict.disc > 0 ? frame->slip_minus : slip_plus;
+}
+
 /* Does the frame hold both: sticking or slip against the disc's sense, and slip with it? */
 static bool has_events(const struct detector *detector, const struct detector_frame *frame)
 {
-    const uint64_t whole =
-        (uint64_t)detector->config.steps_per_period * DETECTOR_FRAME_PERIODS * (uint64_t)PLANT_SHARE_ONE;
+    const uint64_t whole = (uint64_t)PLANT_SHARE_ONE << frame_shift(detector);
     const uint64_t least = whole >> SHARE_LEAST_SHIFT;
-    const uint64_t against = detector->verdict.disc >= 0 ? frame->slip_minus : whole - frame->stick - frame->slip_minus;
-    const uint64_t share = frame->stick + against;
+    const uint64_t share = frame->stick + slip_against(detector, frame, whole);
 
     return share > least && share < whole - least;
 }
@@ -169,7 +179,8 @@ struct detector_window detector_rules_window(const struct detector *detector)
     window.floor = motion_floor(verdict->disc);
     window.forced = forced_speed(detector, newest);
     window.normal = normal_speed(newest);
-    window.has_events = has_events(detector, newest);
+    window.has_contact = newest->y_max > CONTACT_LEAST;
+    window.has_events = window.has_contact && has_events(detector, newest);
     return window;
 }
 

@@ -7,7 +7,7 @@ enum {
     STROBES_COMPARED = DETECTOR_STROBES - DETECTOR_FRAME_PERIODS, /* older ones may be overwritten meanwhile */
     PEAKS_COMPARED = 20,
     PEAK_PERIOD_MAX = 4,
-    PAIRS_PER_STEP = 8,     /* two comparisons each */
+    PAIRS_PER_STEP = 4,     /* two comparisons each; from 32 steps a period on a search ends within its frame */
     TOLERANCE_SHIFT = 10,   /* of the range: 1e-3 */
     INTERVAL_SHIFT = 8,     /* of the interval between maxima: 4e-3 */
     SPIRAL_LEAST_Q16 = 76,  /* growth of 1e-4 a period */

@@ -4,7 +4,10 @@
 #include "base/assert.h"
 #include "base/mem.h"
 
-enum { TICKS_PER_REPORT = 32 }; /* of a free run without news */
+enum {
+    TICKS_PER_REPORT = 32, /* of a free run without news */
+    MAIN_SHARE = 16        /* a tick that leaves main less than this part of its period counts as overrun */
+};
 
 static void write_report(struct executive *executive)
 {
@@ -66,19 +69,19 @@ static uint32_t steps_due(const struct executive *executive)
     return credit < executive->in_force.substeps ? credit : executive->in_force.substeps;
 }
 
-void executive_tick(struct executive *executive, bool is_due)
+bool executive_tick(struct executive *executive, bool is_due)
 {
     uint32_t steps;
     bool has_news = false;
 
     take_order(executive);
     if (!is_due) {
-        return;
+        return false;
     }
-    if (executive->skips_next) {
-        executive->skips_next = false;
+    if (executive->to_shed != 0u) {
+        executive->to_shed--;
         executive->load.shed++;
-        return;
+        return false;
     }
     steps = steps_due(executive);
     for (uint32_t i = 0u; i < steps; i++) {
@@ -94,20 +97,32 @@ void executive_tick(struct executive *executive, bool is_due)
     if (has_news || --executive->until_report == 0u || !executive_wants_tick(executive)) {
         write_report(executive);
     }
+    return true;
 }
 
-void executive_book(struct executive *executive, uint32_t busy, uint32_t period, bool is_late)
+void executive_book(struct executive *executive, const struct executive_tick_time *time, bool is_late)
 {
     struct executive_load *load = &executive->load;
 
-    load->busy_max = busy > load->busy_max ? busy : load->busy_max;
-    load->busy_sum += busy;
-    load->period = period;
-    if (is_late) {
+    if (load->period != time->period) {
+        load->period = time->period;
+        load->busy_max = 0u;
+        load->busy_sum = 0u;
+        load->elapsed = 0u;
+    }
+    load->busy_max = time->busy > load->busy_max ? time->busy : load->busy_max;
+    load->busy_sum += time->busy;
+    load->elapsed += time->elapsed;
+    if (is_late || time->busy > time->period - time->period / MAIN_SHARE) {
         load->overruns++;
-        executive->skips_next = true;
+        executive->to_shed = time->busy / time->period + 1u;
+    }
+    if (!executive_wants_tick(executive)) {
+        write_report(executive); /* the last tick's time is in it too */
     }
 }
+
+bool executive_is_behind(const struct executive *executive) { return executive->to_shed != 0u; }
 
 bool executive_is_squealing(const struct executive *executive)
 {
@@ -259,5 +274,5 @@ void executive_init(struct executive *executive, int arithmetic)
     executive->arithmetic = (float)arithmetic;
     params.arithmetic = executive->arithmetic;
     (void)executive_reset(executive, &params); /* the defaults pass their own check: tested */
-    executive_tick(executive, false);
+    (void)executive_tick(executive, false);
 }

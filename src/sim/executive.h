@@ -38,10 +38,11 @@ struct executive_order {
 /* What the interrupt's time went into. Clock counts are those of the program's clock. */
 struct executive_load {
     uint32_t ticks;    /* that did their work */
-    uint32_t overruns; /* ticks still at work when the next was due */
+    uint32_t overruns; /* ticks still at work past 15/16 of their period */
     uint32_t shed;     /* ticks skipped after an overrun so that main goes on */
     uint32_t busy_max; /* clock counts of the longest tick */
-    uint64_t busy_sum; /* of all ticks */
+    uint64_t busy_sum; /* of all ticks at this rate */
+    uint64_t elapsed;  /* clock counts over which they came */
     uint32_t period;   /* clock counts between two ticks */
 };
 
@@ -63,7 +64,7 @@ struct executive {
     struct executive_load load;          /* interrupt */
     struct executive_order in_force;     /* interrupt */
     uint32_t until_sample, until_report; /* interrupt */
-    bool skips_next;                     /* interrupt */
+    uint32_t to_shed;                    /* interrupt: ticks to skip after an overrun */
 
     struct executive_order orders[2]; /* handed over by publish */
     struct publish publish;
@@ -129,12 +130,24 @@ const struct scale *executive_scale(const struct executive *executive, uint8_t e
 
 /* --- interrupt ---------------------------------------------------------------------------------------------------- */
 
-/* Takes an order if there is one; if a period has passed, makes up to substeps steps. [ISR] */
-void executive_tick(struct executive *executive, bool is_due);
+/* Takes an order if there is one; if a period has passed, makes up to substeps steps. True if it did; false too where the
+ * tick was shed. [ISR] */
+bool executive_tick(struct executive *executive, bool is_due);
 
-/* Books what the tick took, in counts of the program's clock; period is that between ticks. After a late one the next
- * tick is to be skipped: it is shed, and main gets the rest of its period. [ISR] */
-void executive_book(struct executive *executive, uint32_t busy, uint32_t period, bool is_late);
+/* What one tick took, in counts of the program's clock. */
+struct executive_tick_time {
+    uint32_t busy;    /* from its begin to its end */
+    uint32_t elapsed; /* since the tick before */
+    uint32_t period;  /* between two ticks by the timer's setting */
+};
+
+/* Books a tick's time. One that was late, or left main less than 1/16 of the period, is an overrun: as many ticks as it
+ * took periods are shed after it, and one more, so that main has at least half of the time whatever the load. A tick that
+ * was shed is never late. [ISR] */
+void executive_book(struct executive *executive, const struct executive_tick_time *time, bool is_late);
+
+/* Ticks are being shed after an overrun. [ISR] */
+bool executive_is_behind(const struct executive *executive);
 
 /* The propensity at this step, for the pin. [ISR] */
 bool executive_is_squealing(const struct executive *executive);

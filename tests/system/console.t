@@ -37,13 +37,16 @@ with Firmware() as firmware:
     firmware.ask("step 1000")
     state = firmware.ask("status")["hash"]
     for line, error, words in [
-        ("set v0 nan", "bad-number", "nan"), ("set m 0", "out-of-range", "1e-06"), ("set m -1", "out-of-range", "1000000"),
+        ("set v0 nan", "bad-number", "-1000 .. 1000 m/s"), ("set m 1e-50", "out-of-range", "m=1e-50"),
+        ("set m 0", "out-of-range", "1e-06"), ("set m -1", "out-of-range", "1000000"),
         ("set ke 1 k 1000", "out-of-scale", "k"), ("set spp 16 kt 3 k 3", "step-too-large", "0.4"),
         ("set spp 63", "out-of-range", "16"), ("set nonsense 1", "unknown-name", "nonsense"),
         ("set v0", "usage", ""), ("set v0 1 N0", "usage", ""), ("fly", "unknown-command", "fly"), ("step 0", "", ""),
         ("step 2000000000", "", ""), ("measure x", "", ""), ("preset fig99", "unknown-name", "fig99"),
         ("set method naive normal exact", "not-served", ""), ("set N0 0 v0 0 c 0.02 m 0.4", "no-scale", ""), ("stream csv nothing", "unknown-name", ""),
-        ("set v0 1 v0", "usage", ""), ("set load ramp t1 5 t2 4", "out-of-range", "5"),
+        ("set v0 1 v0", "usage", ""), ("set v0 1 v0 2", "usage", "v0"), ("set tick 0.5", "out-of-range", "1 .. 100000"),
+        ("set tick 1000.5", "out-of-range", "whole"), ("stream csv every 0", "out-of-range", "1 .. 1000000000"),
+        ("demo 9", "out-of-range", "1 .. 5"), ("set load ramp t1 5 t2 4", "out-of-range", "5"),
     ]:
         answer = firmware.ask(line)
         tap.check(isinstance(answer, str) and answer.startswith(f"error {error}") and words in answer,
@@ -81,6 +84,17 @@ with Firmware(limit_s=120) as firmware:
     tap.check(status["uart_lost"] == "0" and status["rejected"] == "0", "none lost, none rejected", str(status))
 
 with Firmware() as firmware:
+    firmware.ask("set tick 10")
+    stream = firmware.ask("stream csv x every 1")
+    answer = firmware.ask("set substeps 64 tick 100000")
+    tap.check(isinstance(stream, dict) and isinstance(answer, str) and answer.startswith("error line-overload"),
+              "a pace that the stream's line cannot carry is refused", str(stream), str(answer))
+    firmware.ask("step 3")
+    tap.check([sample[0] for sample in firmware.samples] == ["1", "2", "3"] and
+              all(len(sample) == 3 for sample in firmware.samples), "each sample begins with its step and time",
+              str(firmware.samples))
+
+with Firmware() as firmware:
     firmware.ask("preset fig7-ke5000")
     firmware.ask("set substeps 64 tick 100")
     firmware.ask("stream csv step,mode every 4096 force")
@@ -92,9 +106,8 @@ with Firmware() as firmware:
               abs(float(verdict["t_v10"]) / 0.412073451 - 1) < 0.01, "and what it was: squeal, diverging", str(verdict))
     tap.check(status["state"] == "fault" and status["fault"] != "none", "status says so too", str(status))
     frozen = status["hash"]
-    firmware.ask("set alpha -0.001")
-    answer = firmware.ask("run")
-    tap.check(isinstance(answer, str) and firmware.ask("status")["hash"] == frozen, "nothing moves it but a reset", str(answer))
+    answers = [firmware.ask(line) for line in ("set alpha -0.001", "run")]
+    tap.check(all(isinstance(answer, str) and answer.startswith("error in-fault") for answer in answers) and firmware.ask("status")["hash"] == frozen, "nothing moves it but a reset", *map(str, answers))
     firmware.ask("reset")
     status = firmware.ask("status")
     tap.check(status["state"] == "ready" and status["step"] == "0", "a reset leaves it", str(status))

@@ -30,6 +30,7 @@ DEFAULTS = {
 RESTART = {"m", "ke", "cn", "contact", "x0", "xd0", "y0", "yd0", "spp", "arith", "normal", "method", "v_max", "N_max"}
 LOADS = ["constant", "step", "ramp", "sine"]
 CONTACTS = ["bilateral", "no_pull", "lift"]
+UNITS = {"t": "[s]", "x": "[m]", "xd": "[m/s]", "y": "[m]", "yd": "[m/s]", "N": "[N]", "F": "[N]", "vr": "[m/s]"}
 DEMO_STEPS = 4000
 DEMO_PERIOD_S = 3.44e-4
 
@@ -166,7 +167,7 @@ class Firmware:
         if self.values["tick"] * self.values["substeps"] > 900 * self.every:
             raise Refused("error line-overload smallest=2")
         self.answer("stream", every=self.every, line_bytes=90, load="40%", smallest=2)
-        self.say("#" + ",".join(self.signals))
+        self.say("#" + ",".join(name + UNITS.get(name, "") for name in self.signals))
 
     def sample(self, step, act):
         phase = 2 * math.pi * step / self.spp()

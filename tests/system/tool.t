@@ -211,8 +211,8 @@ def run_tests(tap, folder):
     with open(out + "/state.csv", newline="") as file:
         rows = list(csv.DictReader(file))
     second = [row for row in rows if row["act"] == "2"]
-    tap.ok(list(rows[0]) == "act,step,t,x,xd,y,yd,N,F,vr,mode,propensity".split(","), "state.csv has the act before the signals")
-    tap.ok([int(row["step"]) for row in second] == list(range(1, len(second) + 1)), "and every step of the act")
+    tap.ok(list(rows[0]) == "act,step,t[s],x[m],xd[m/s],y[m],yd[m/s],N[N],F[N],vr[m/s],mode,propensity".split(","), "state.csv has the act before the signals")
+    tap.ok([int(row["step"]) for row in second] == list(range(2, 2 * len(second) + 1, 2)), "and every second step of the act")
     fifth = [int(row["step"]) for row in rows if row["act"] == "5"]
     tap.ok(fifth == list(range(4, 4 * len(fifth) + 1, 4)), "or as many as its picture needs")
     with open(out + "/run.json") as file:

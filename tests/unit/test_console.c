@@ -122,9 +122,17 @@ static void check_refusals(void)
     static const struct refusal refusals[] = {
         {"set m -1\r", "error out-of-range m=-1: 1e-06 .. 1000000 kg"},
         {"set m 0\r", "error out-of-range m=0: 1e-06 .. 1000000 kg"},
-        {"set c 5 m nan\r", "error bad-number m=nan: not a decimal number"},
-        {"set c 1e39\r", "error bad-number c=1e39: "},
+        {"set c 5 m nan\r", "error bad-number m=nan: not a decimal number, or too large for single precision; "
+                            "1e-06 .. 1000000 kg"},
+        {"set c 1e39\r", "error bad-number c=1e39: not a decimal number, or too large for single precision; "
+                         "0 .. 1000000000 N s/m"},
         {"set v0 1x\r", "error bad-number v0=1x: "},
+        {"set m 1e-50\r", "error out-of-range m=1e-50: 1e-06 .. 1000000 kg"},
+        {"set m 1 m 2\r", "error usage m: named twice; once is enough"},
+        {"set c 1 m 2 mass_kg 3\r", "error usage m: named twice; "},
+        {"set tick 1000.5\r", "error out-of-range tick=1000.5: 1 .. 100000 Hz, whole"},
+        {"stream csv every 0\r", "error out-of-range every=0: 1 .. 1000000000, a whole number"},
+        {"stream csv x every 1000000000000 force\r", "error out-of-range every=1000000000000: 1 .. "},
         {"set spp 63\r", "error out-of-range spp=63: 16|32|64|128|256|512|1024"},
         {"set arith f64\r", "error out-of-range arith=f64: f32|q27"},
         {"set substeps 1.5\r", "error out-of-range substeps=1.5: 1 .. 64, a whole number"},
@@ -144,7 +152,8 @@ static void check_refusals(void)
         {"measure 1000001\r", "error out-of-range periods=1000001: 1 .. 1000000, a whole number"},
         {"step\r", "error usage step <n>"},
         {"status now\r", "error usage status: takes no arguments"},
-        {"demo 6\r", "error usage demo [act]"},
+        {"demo 6\r", "error out-of-range act=6: 1 .. 5, a whole number"},
+        {"demo 1 2\r", "error usage demo [act]"},
         {"launch\r", "error unknown-command launch: no command has this name; help lists them"},
     };
     static const struct refusal while_running[] = {
@@ -314,7 +323,7 @@ static void check_echo(void)
                    "echo and answers follow each other");
     (void)bench_say("stream csv step every 100 force\rrun\rget");
     bench_wait(100u);
-    tap_check(bench_holds(bench.heard, "get\r\n100\r\n"), "a sample never joins a line that is being typed");
+    tap_check(bench_holds(bench.heard, "get\r\n100,5.37725352\r\n"), "a sample never joins a line that is being typed");
     (void)bench_say(" m\r");
     tap_check(bench_starts(bench.last, "ok get m="), "which goes on");
 }
@@ -335,6 +344,9 @@ static void check_notices(void)
     tap_check(bench_starts(bench_say("run\r"), "error in-fault step=") &&
                   bench_starts(bench_say("measure 1\r"), "error in-fault step="),
               "nothing steps in a fault");
+    tap_check(bench_starts(bench_say("set mu_s 0.2\r"), "error in-fault step=") &&
+                  executive_params(&bench.executive)->friction_static_ratio == 0.3f,
+              "nor is the set changed");
     (void)bench_say("status\r");
     tap_check(bench_starts(bench.last, "ok status state=fault ") && bench_holds(bench.last, " fault=domain "),
               "the status says so");
@@ -342,6 +354,9 @@ static void check_notices(void)
               "and the verdict");
     tap_check(bench_starts(bench_say("reset\r"), "ok reset ") && bench_starts(bench_say("step 5\r"), "ok step "),
               "a reset leaves it");
+    (void)bench_say("preset fig7-ke5000\rstep 100000\r");
+    tap_check(bench_starts(bench_say("defaults\r"), "ok defaults ") && bench_starts(bench_say("step 5\r"), "ok step "),
+              "so do the defaults, which are a reset");
 }
 
 static void check_selftest(void)
@@ -389,7 +404,7 @@ static void check_banner(void)
     (void)bench_say("");
     tap_check(bench_starts(bench.heard, "squeal 0.0.0 (test) on bench, none: "), "the banner says who is speaking");
     tap_check_text(bench_say("id\r"),
-                   "ok id name=squeal version=0.0.0 build=test board=bench core=none emulated=no params=1 signals=1 "
+                   "ok id name=squeal version=0.0.0 build=test board=bench core=none emulated=no params=2 signals=2 "
                    "commands=1 arith=f32 normal=rk4 method=event states=4 spp=64",
                    "and so does id");
 }

@@ -18,18 +18,19 @@ static void check_overrun(void)
     plants_executive(&executive, "N0 1");
     executive_free_run(&executive);
     plants_ticks(&executive, 10u);
-    executive_book(&executive, 700u, 1000u, false);
-    executive_book(&executive, 1200u, 1000u, true);
-    executive_book(&executive, 100u, 1000u, false);
+    executive_book(&executive, &(struct executive_tick_time){700u, 1000u, 1000u}, false);
+    executive_book(&executive, &(struct executive_tick_time){1200u, 1000u, 1000u}, true);
+    executive_book(&executive, &(struct executive_tick_time){100u, 2000u, 1000u}, false);
+    plants_ticks(&executive, 2u);
+    tap_check(executive.sim.step == 10u && executive.load.shed == 2u && executive.load.ticks == 10u,
+              "after a tick of 1.2 periods two are shed");
     plants_ticks(&executive, 1u);
-    tap_check(executive.sim.step == 10u && executive.load.shed == 1u && executive.load.ticks == 10u,
-              "after a late tick the next is shed");
-    plants_ticks(&executive, 1u);
-    tap_check(executive.sim.step == 11u && executive.load.shed == 1u, "and only that");
+    tap_check(executive.sim.step == 11u && executive.load.shed == 2u, "and only those");
     tap_check(executive.load.overruns == 1u && executive.load.busy_max == 1200u && executive.load.busy_sum == 2000u &&
-                  executive.load.period == 1000u,
+                  executive.load.elapsed == 4000u && executive.load.period == 1000u,
               "what ticks took is booked");
-    executive_book(&executive, 1200u, 1000u, true);
+    executive_book(&executive, &(struct executive_tick_time){250000u, 250000u, 1000u}, true);
+    tap_check(executive.to_shed == 251u, "a tick of 250 periods is followed by 251 that leave the time to main");
     (void)plants_order(&executive, "N0 2", false, NULL);
     executive_tick(&executive, true);
     tap_check(!executive_has_order(&executive) && executive.sim.step == 11u, "a shed tick still takes its order");

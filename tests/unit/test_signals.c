@@ -11,13 +11,13 @@ static struct text text;
 static uint8_t storage[64];
 static char out[65];
 
-static const char *written(enum signal signal, const struct sample *sample, const struct scale *scale, int contact)
+static const char *written(enum signal signal, const struct sample *sample, const struct scale *scale)
 {
     size_t size;
     const uint8_t *bytes;
 
     text_init(&text, storage, sizeof storage);
-    signals_append(&text, signal, sample, scale, contact);
+    signals_append(&text, signal, sample, scale);
     bytes = text_peek(&text, &size);
     for (size_t i = 0u; i < size; i++) {
         out[i] = (char)bytes[i];
@@ -53,11 +53,16 @@ static void check_values(void)
                                                        "88",     "35",  "-91", "12",         "slip-",
                                                        "squeal", "18",  "-21", "4.33333349", "0000beef"};
 
+    struct scale no_pull = scale;
+    struct scale lift = scale;
+
     for (unsigned i = 0u; i < SIGNAL_COUNT; i++) {
-        tap_check_text(written((enum signal)i, &sample, &scale, CONTACT_BILATERAL), expected[i], signals_table[i].name);
+        tap_check_text(written((enum signal)i, &sample, &scale), expected[i], signals_table[i].name);
     }
-    tap_check_text(written(SIGNAL_P, &sample, &scale, CONTACT_NO_PULL), "0", "contact that cannot pull does not");
-    tap_check_text(written(SIGNAL_MU, &sample, &scale, CONTACT_LIFT), "nan", "friction over no force is no number");
+    no_pull.contact = CONTACT_NO_PULL;
+    tap_check_text(written(SIGNAL_P, &sample, &no_pull), "0", "contact that cannot pull does not");
+    lift.contact = CONTACT_LIFT;
+    tap_check_text(written(SIGNAL_MU, &sample, &lift), "nan", "friction over no force is no number");
 }
 
 /* The same values in Q4.27, where x counts units of 2^length_shift. */
@@ -79,11 +84,11 @@ static void check_integers(void)
         char expected[32];
         size_t size = 0u;
 
-        for (const char *c = written((enum signal)i, &sample, &scale, 0); *c != '\0'; c++) {
+        for (const char *c = written((enum signal)i, &sample, &scale); *c != '\0'; c++) {
             expected[size++] = *c;
         }
         expected[size] = '\0';
-        tap_check_text(written((enum signal)i, &other, &soft, 0), expected, signals_table[i].name);
+        tap_check_text(written((enum signal)i, &other, &soft), expected, signals_table[i].name);
     }
 }
 
@@ -92,13 +97,13 @@ static void check_modes(void)
     struct sample other = sample;
 
     other.mode = 0;
-    tap_check_text(written(SIGNAL_MODE, &other, &scale, 0), "stick", "stick");
+    tap_check_text(written(SIGNAL_MODE, &other, &scale), "stick", "stick");
     other.mode = 1;
-    tap_check_text(written(SIGNAL_MODE, &other, &scale, 0), "slip+", "slip+");
+    tap_check_text(written(SIGNAL_MODE, &other, &scale), "slip+", "slip+");
     other.is_fault = 1u;
-    tap_check_text(written(SIGNAL_MODE, &other, &scale, 0), "fault", "fault");
+    tap_check_text(written(SIGNAL_MODE, &other, &scale), "fault", "fault");
     other.x = 0x7f800000u;
-    tap_check_text(written(SIGNAL_X, &other, &scale, 0), "nan", "an infinity is no number");
+    tap_check_text(written(SIGNAL_X, &other, &scale), "nan", "an infinity is no number");
 }
 
 static void check_names(void)
@@ -147,7 +152,7 @@ static void check_widths(void)
 
         any.step >>= i % 64u;
         for (unsigned signal = 0u; signal < SIGNAL_COUNT; signal++) {
-            (void)written((enum signal)signal, &any, &units, CONTACT_BILATERAL);
+            (void)written((enum signal)signal, &any, &units);
             ok = ok && text.head <= signals_table[signal].width;
         }
     }

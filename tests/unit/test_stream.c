@@ -24,12 +24,16 @@ static void check_parse(void)
                   setup.count == 3u && setup.signals[0] == SIGNAL_XD && setup.signals[2] == SIGNAL_HASH &&
                   setup.every == 7u && setup.is_forced,
               "all that can be said");
+    tap_check(parse("csv xd,t,x", &setup) == ERROR_OK && setup.count == 4u && setup.signals[0] == SIGNAL_STEP &&
+                  setup.signals[1] == SIGNAL_T && setup.signals[2] == SIGNAL_XD && setup.signals[3] == SIGNAL_X,
+              "step and t lead every csv stream");
     tap_check(parse("csv force", &setup) == ERROR_OK && setup.is_forced, "force alone");
     tap_check(parse("csv x,y,bogus", &setup) == ERROR_UNKNOWN_NAME && parse("csv x,", &setup) == ERROR_UNKNOWN_NAME,
               "a name that is none");
-    tap_check(parse("csv x,y,x", &setup) == ERROR_USAGE, "a name twice");
+    tap_check(parse("csv x,y,x", &setup) == ERROR_USAGE && parse("csv t,t", &setup) == ERROR_USAGE, "a name twice");
     tap_check(parse("json", &setup) == ERROR_USAGE && parse("csv x every", &setup) == ERROR_USAGE &&
-                  parse("csv every 0", &setup) == ERROR_USAGE && parse("csv every 1e3", &setup) == ERROR_USAGE &&
+                  parse("csv every 0", &setup) == ERROR_OUT_OF_RANGE &&
+                  parse("csv every 1e3", &setup) == ERROR_OUT_OF_RANGE &&
                   parse("csv every 2 now", &setup) == ERROR_USAGE,
               "anything else");
 }
@@ -41,12 +45,12 @@ static void check_load(void)
 
     (void)parse("csv step,x", &setup);
     load = stream_load(&setup, 1000.0f, 115200u);
-    tap_check(load.sample_bytes == 20u + 1u + 16u + 2u, "a line is its signals, commas and end");
-    tap_check(load.smallest == 5u && load.percent == 68u, "39 bytes at 1 kHz fit 115200 baud each fifth step");
+    tap_check(load.sample_bytes == 20u + 1u + 16u + 1u + 16u + 2u, "a line is its signals, commas and end");
+    tap_check(load.smallest == 7u && load.percent == 69u, "56 bytes at 1 kHz fit 115200 baud each seventh step");
     load = stream_load(&setup, 0.01f, 115200u);
     tap_check(load.smallest == 1u && load.percent == 0u, "slow ones each step");
     setup.every = 1u;
-    tap_check(stream_load(&setup, 1000.0f, 115200u).percent == 339u, "and what does not fit says by how much");
+    tap_check(stream_load(&setup, 1000.0f, 115200u).percent == 486u, "and what does not fit says by how much");
 }
 
 static void check_refusals(void)
@@ -58,14 +62,15 @@ static void check_refusals(void)
     tap_check_text(bench_say("stream\r"), "ok stream off", "and nothing streams");
     tap_check_text(bench_say("stream csv\r"), "ok stream csv every=19 line_bytes=172 load=79% smallest=19",
                    "without a number the smallest that fits is taken");
-    tap_check(bench_holds(bench.heard, "smallest=19\r\n#step,t,x,xd,y,yd,N,F,vr,mode,propensity\r\n"),
+    tap_check(bench_holds(bench.heard,
+                          "smallest=19\r\n#step,t[s],x[m],xd[m/s],y[m],yd[m/s],N[N],F[N],vr[m/s],mode,propensity\r\n"),
               "the header follows the answer");
     tap_check_text(bench_say("stream csv every 1 force\r"),
                    "ok stream csv every=1 line_bytes=172 load=1493% smallest=19", "force overloads");
     tap_check_text(bench_say("stream csv x every 1\r"),
-                   "error line-overload every=1 line_bytes=18 load=156% smallest=2: the "
+                   "error line-overload every=1 line_bytes=56 load=486% smallest=7: the "
                    "stream needs more than 80 % of the line: every N or force",
-                   "one column less");
+                   "fewer columns");
     tap_check_text(bench_say("stream\r"), "ok stream csv every=1 line_bytes=172 load=1493% smallest=19",
                    "a refusal leaves the stream as it was");
     tap_check_text(bench_say("stream csv x,bogus\r"),
@@ -73,6 +78,31 @@ static void check_refusals(void)
     tap_check(bench_starts(bench_say("stream xml\r"), "error usage stream [off|header|csv|teleplot "),
               "an unknown form");
     tap_check_text(bench_say("stream off\r"), "ok stream off", "off");
+}
+
+/* The line must carry the stream at any pace that is set while it goes on. */
+static void check_pace(void)
+{
+    bench_open();
+    (void)bench_say("stream csv every 19\r");
+    tap_check_text(
+        bench_say("set tick 2000\r"),
+        "error line-overload every=19 line_bytes=172 load=157% smallest=38: at this pace; stream off, or stream "
+        "anew with a larger every or force",
+        "a faster tick that overloads the line is refused");
+    tap_check(bench_starts(bench_say("set substeps 2\r"), "error line-overload ") &&
+                  executive_params(&bench.executive)->tick_hz == 1000.0f &&
+                  executive_params(&bench.executive)->steps_per_tick == 1.0f,
+              "so are more substeps, and the set stays");
+    tap_check(bench_starts(bench_say("set tick 500 substeps 2\r"), "ok "), "the same pace in other parts is not");
+    (void)bench_say("stream off\rset tick 10 substeps 1\rstream csv every 1\r");
+    tap_check(bench_starts(bench_say("defaults\r"), "error line-overload ") &&
+                  bench_starts(bench_say("preset brake\r"), "error line-overload ") &&
+                  bench_starts(bench_say("reset\r"), "ok "),
+              "nor do presets and defaults, which set the pace too, get past it");
+    tap_check(bench_starts(bench_say("stream csv every 1 force\r"), "ok ") &&
+                  bench_starts(bench_say("defaults\r"), "ok "),
+              "force does");
 }
 
 static void check_csv(void)
@@ -90,7 +120,7 @@ static void check_csv(void)
     (void)bench_say("preset brake\rstep 4\r");
     tap_check(bench.samples == 1u, "a preset leaves the stream on");
     (void)bench_say("stream header\r");
-    tap_check_text(bench.heard, "ok stream header\r\n#step,t,v0\r\n", "the header can be had again");
+    tap_check_text(bench.heard, "ok stream header\r\n#step,t[s],v0[m/s]\r\n", "the header can be had again");
     (void)bench_say("stream csv step every 2 force\rstep 4\rstream off\rstep 4\r");
     tap_check(bench.samples == 2u && bench.oks == 4u, "a new stream takes the place of the old one, off ends it");
 }
@@ -99,12 +129,12 @@ static void check_teleplot(void)
 {
     bench_open();
     (void)bench_say("stream teleplot step,t,x,N,xd,mu,mode every 1000\rstep 1000\r");
-    tap_check(bench_holds(bench.heard, "\r\n>phase:") &&
-                  bench_holds(bench.heard, "|xy\r\n>N:53772.5352:1\xc2\xa7N\r\n>mu:"),
-              "x and xd are the phase portrait, other numbers series with their unit");
-    tap_check(bench_holds(bench.heard, "\r\n>mode:53772.5352:slip+|t\r\n") && !bench_holds(bench.heard, ">step") &&
-                  !bench_holds(bench.heard, ">t:") && !bench_holds(bench.heard, ">x:"),
-              "words are text, step and time no series");
+    tap_check(bench_holds(bench.heard, "\r\n>step:53772.5352:1000\r\n>phase:") &&
+                  bench_holds(bench.heard, ":53772.5352|xy\r\n>N:53772.5352:1\xc2\xa7N\r\n>mu:"),
+              "the step, x and xd as the phase portrait, other numbers series with their unit");
+    tap_check(bench_holds(bench.heard, "\r\n>mode:53772.5352:slip+|t\r\n") && !bench_holds(bench.heard, ">t:") &&
+                  !bench_holds(bench.heard, ">x:"),
+              "words are text, time is no series of its own");
     (void)bench_say("stream teleplot x every 1000\rstep 1000\r");
     tap_check(bench_holds(bench.heard, "\r\n>x:") && !bench_holds(bench.heard, ">phase"), "x alone is a series");
 }
@@ -190,6 +220,25 @@ static void check_slow_line(void)
     tap_check(field(bench.last, " drops=") == 0u, "nor count one");
 }
 
+/* Samples that a reset has overtaken are of the set that they were made with. */
+static void check_contact(void)
+{
+    bool is_busy;
+
+    bench_open();
+    (void)bench_say("set contact no_pull N0 0 N_max 1 y0 -0.5\rstream csv P every 1 force\rrun\r");
+    while (ring_fill(&bench.executive.samples) < 64u) {
+        (void)bench_turn("", 0u, 0u, &is_busy);
+    }
+    bench_listen_anew();
+    (void)bench_turn("defaults\r", 9u, 0u, &is_busy);
+    tap_check(ring_fill(&bench.executive.samples) >= 64u && executive_params(&bench.executive)->contact == 0.0f,
+              "a reset overtakes samples on their way");
+    bench_wait(50u);
+    tap_check(bench.samples > 64u && bench.oks == 1u && !bench_holds(bench.heard, ",-"),
+              "which pull as little as the contact of their set did");
+}
+
 /* A change of the stream while samples of the old one still wait. */
 static void check_change(void)
 {
@@ -209,10 +258,10 @@ static void check_change(void)
         lines += *c == '\n' ? 1u : 0u;
     }
     tap_check(lines > EXECUTIVE_SAMPLES, "the old stream's samples come before the new one's answer");
-    tap_check(bench_holds(bench.heard, "\r\n#N,step\r\n1,20"), "then its header, and samples taken since");
+    tap_check(bench_holds(bench.heard, "\r\n#step,t[s],N[N]\r\n20"), "then its header, and samples taken since");
     (void)bench_say("stop\r");
     (void)bench_say("step 9\r");
-    tap_check(bench.samples == 1u && bench_starts(bench.heard, "1,"), "and it outlasts a stop");
+    tap_check(bench.samples == 1u && bench_starts(bench.heard, "20"), "and it outlasts a stop");
 }
 
 void test_stream(void)
@@ -220,10 +269,12 @@ void test_stream(void)
     check_parse();
     check_load();
     check_refusals();
+    check_pace();
     check_csv();
     check_teleplot();
     check_sample_bytes();
     check_gap();
     check_slow_line();
+    check_contact();
     check_change();
 }

@@ -25,15 +25,15 @@ bool record_open(struct record *record, const char *path)
     if (record->file == NULL) {
         return false;
     }
-    (void)fputs("act," RECORD_SIGNALS "\n", record->file);
+    (void)fputs("act," RECORD_HEADER "\n", record->file);
     return true;
 }
 
 void record_header(struct record *record, const char *text)
 {
     text += strspn(text, " ");
-    if (strcmp(text, RECORD_SIGNALS) != 0) {
-        complain(record, "the stream has other columns than " RECORD_SIGNALS, text);
+    if (strcmp(text, RECORD_HEADER) != 0) {
+        complain(record, "the stream has other columns than " RECORD_HEADER, text);
     }
 }
 

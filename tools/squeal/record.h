@@ -13,6 +13,10 @@
 /* The signals that the tool asks for, in this order. */
 #define RECORD_SIGNALS "step,t,x,xd,y,yd,N,F,vr,mode,propensity"
 
+/* The header that the device then sends, and that state.csv gets behind its act. A column in another unit is another
+ * column. */
+#define RECORD_HEADER "step,t[s],x[m],xd[m/s],y[m],yd[m/s],N[N],F[N],vr[m/s],mode,propensity"
+
 enum { RECORD_ACTS = 5 };
 
 enum propensity { PROPENSITY_UNKNOWN, PROPENSITY_QUIET, PROPENSITY_WATCH, PROPENSITY_SQUEAL };
@@ -50,7 +54,7 @@ struct record {
 /* Opens state.csv at the path; false with the problem set if it cannot. */
 bool record_open(struct record *record, const char *path);
 
-/* Takes the header of a stream: it must name the signals that were asked for. */
+/* Takes the header of a stream: it must name the signals that were asked for, in SI units. */
 void record_header(struct record *record, const char *text);
 
 /* Takes one line of a stream. */

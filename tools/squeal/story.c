@@ -82,8 +82,8 @@ static void pictures_draw(struct story *story)
 }
 
 /* Steps from one sample to the next, by act. The line is what a run waits for, so no act is sampled finer than its picture
- * needs: 16 to 64 points a normal period. The fourth act is heard, at 93 kHz. */
-static const double every[RECORD_ACTS] = {2.0, 1.0, 4.0, 2.0, 4.0};
+ * needs: 8 to 32 points a normal period. The fourth act is heard, at 46 kHz. */
+static const double every[RECORD_ACTS] = {4.0, 2.0, 8.0, 4.0, 4.0};
 
 /* Reads "1,3,5" into the acts to play. */
 static bool acts_read(struct story *story, const char *list)
