@@ -23,8 +23,12 @@ golden() { # where, table, arithmetic, steps a period, normal method, command
     sed 's/^/# /' "$work/log"
 }
 
+# The board's own arithmetic, which is q27 where there is no FPU.
+# shellcheck disable=SC2086 # A command line.
+default=$(printf 'get arith\r' | timeout 10 ${BOARD_RUN-} "$IMAGE" | sed -n 's/^ok get arith=\([a-z0-9]*\).*/\1/p')
+
 for table in paper options; do
-    golden "$BOARD" $table f32 64 exact $BOARD_RUN "$IMAGE"
+    golden "$BOARD" $table "$default" 64 exact $BOARD_RUN "$IMAGE"
     for arith in f32 q27; do
         golden host $table $arith 64 exact "$HOST_IMAGE"
         golden host $table $arith 128 rk4 "$HOST_IMAGE"

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""The same bits on the host and on the board: a million steps with events, load and parameter changes, every state
-hashed, for 1, 7 and 64 steps a tick and across stops. Then what main sees of a running plant is never torn."""
+"""The same bits on the host and on the board, in both arithmetics: a million steps with events, load and parameter changes,
+every state hashed, for 1, 7 and 64 steps a tick and across stops. Then what main sees of a running plant is never torn."""
 import os
 import sys
 
@@ -26,12 +26,14 @@ SCRIPT = [
 ]
 
 
-def hashes(where, substeps, pieces=1, extra=()):
-    """Hash after each line of the script, the grant being cut into pieces."""
+def hashes(where, arith, substeps, pieces=1, share=1):
+    """Hash after each line of the script, the grant being cut into pieces. share takes a part of the steps."""
     seen = []
-    with Firmware(where, extra, limit_s=120) as firmware:
+    with Firmware(where, limit_s=120) as firmware:
         for line, steps in SCRIPT:
-            if isinstance(firmware.ask(line), str):
+            steps = max(steps // share, 1)
+            resets = line.startswith(("preset", "defaults"))
+            if isinstance(firmware.ask(line), str) or resets and isinstance(firmware.ask(f"set arith {arith}"), str):
                 return [f"refused: {line}"]
             firmware.ask(f"set substeps {substeps} tick {9600 // substeps}")
             first = steps - steps // pieces * (pieces - 1)
@@ -43,19 +45,26 @@ def hashes(where, substeps, pieces=1, extra=()):
 
 
 tap = Tap()
-truth = hashes("host", 64)
-tap.check(len(truth) == len(SCRIPT) + 2, "the host goes through the script", *truth)
-tap.check(len({pair[1] for pair in truth[:len(SCRIPT)]}) == len(SCRIPT) - 1, "and its states differ wherever the lines do")
-for where, substeps, pieces in [("host", 1, 1), ("host", 7, 5), ("board", 64, 1), ("board", 7, 5), ("board", 1, 2)]:
-    seen = hashes(where, substeps, pieces)
-    tap.check(seen == truth, f"{where}: same bits with {substeps} steps a tick, grants cut in {pieces}",
-              *[f"{line}: {a} instead of {b}" for (line, _), a, b in zip(SCRIPT, seen, truth) if a != b][:3])
+with Firmware("board") as board:
+    default = board.ask("get arith")["arith"]
+for arith in ["f32", "q27"]:
+    # A board that starts in fixed point has no FPU: its floats are worth a fiftieth of the steps.
+    share = 50 if arith == "f32" != default else 1
+    truth = hashes("host", arith, 64, share=share)
+    tap.check(len(truth) == len(SCRIPT) + 2, f"{arith}: the host goes through the script", *truth)
+    tap.check(len({pair[1] for pair in truth[:len(SCRIPT)]}) == len(SCRIPT) - 1,
+              f"{arith}: and its states differ wherever the lines do")
+    for where, substeps, pieces in [("host", 1, 1), ("host", 7, 5), ("board", 64, 1), ("board", 7, 5), ("board", 1, 2)]:
+        seen = hashes(where, arith, substeps, pieces, share)
+        tap.check(seen == truth, f"{arith} on {where}: same bits with {substeps} steps a tick, grants cut in {pieces}",
+                  *[f"{line}: {a} instead of {b}" for (line, _), a, b in zip(SCRIPT, seen, truth) if a != b][:3])
 
 
 def running_pairs(extra):
     """(step, hash) as status and the stream show them while the tick pre-empts main."""
     with Firmware("board", extra, limit_s=120) as firmware:
         firmware.ask("preset fig5-n10")
+        firmware.ask(f"set arith {default}")
         firmware.ask("set substeps 1 tick 5000")
         firmware.ask("stream csv step,hash every 23 force")
         firmware.ask("run")
@@ -77,6 +86,7 @@ def true_hashes(steps):
     found, at = {}, 0
     with Firmware("host", limit_s=120) as firmware:
         firmware.ask("preset fig5-n10")
+        firmware.ask(f"set arith {default}")
         firmware.ask("set substeps 64 tick 1000")
         for step in sorted(set(steps) - {0}):
             found[step] = firmware.ask(f"step {step - at}")["hash"]
