@@ -108,6 +108,7 @@ OUT        ?= build/golden
 ARITH      ?= f32
 SPP        ?= 64
 NORMAL     ?= exact
+METHOD     ?= event
 ASYMPTOTIC ?=
 
 run: $(IMAGE) $(TOOL) ## run the demonstration, record and pictures in build/run
@@ -118,8 +119,8 @@ monitor: $(IMAGE) ## talk to the firmware in this terminal
 	@saved=$$(stty -g 2>/dev/null) && trap "stty $$saved" EXIT INT TERM && stty -icanon -echo; \
 	SQUEAL_REALTIME=1 $(COMMAND)
 
-golden: $(IMAGE) $(TOOL) ## run the cases of CASES= into OUT= (ARITH= SPP= NORMAL= ASYMPTOTIC=1)
-	$(Q)$(TOOL) golden --cases $(CASES) --out $(OUT) --spp $(SPP) --normal $(NORMAL) --arith $(ARITH) \
+golden: $(IMAGE) $(TOOL) ## run the cases of CASES= into OUT= (ARITH= SPP= NORMAL= METHOD= ASYMPTOTIC=1)
+	$(Q)$(TOOL) golden --cases $(CASES) --out $(OUT) --spp $(SPP) --normal $(NORMAL) --method $(METHOD) --arith $(ARITH) \
 	    $(if $(ASYMPTOTIC),--asymptotic) --jobs 2 -- $(COMMAND)
 
 oracle: $(ORACLE) ## make golden rows for any parameters: the cases of CASES= into OUT=, by the reference solver

@@ -21,6 +21,7 @@ enum {
     NS_PER_S = 1000000000,
     NS_PER_COUNT = NS_PER_S / BOARD_CLOCK_HZ,
     CATCH_UP_TICKS = 1000, /* at most this many at once, what is further behind is given up */
+    END_OF_TEXT = 0x04,    /* what a terminal's user types to end the input, and what is read once when it has ended */
     QUIET_ROUNDS = 16      /* idle calls after the end of input that prove that nothing is left to say */
 };
 
@@ -267,7 +268,11 @@ size_t hal_uart_read(enum hal_uart port, void *data, size_t size)
     }
     count = read(STDIN_FILENO, data, size);
     console.is_ended = count == 0 || (count < 0 && errno != EINTR && errno != EAGAIN);
-    if (count <= 0) {
+    if (console.is_ended) {
+        *(uint8_t *)data = END_OF_TEXT;
+        return 1u;
+    }
+    if (count < 0) {
         return 0u;
     }
     console.quiet_rounds = 0u;

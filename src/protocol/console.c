@@ -47,18 +47,19 @@ static bool is_stop(const struct line *line)
     return token_is(token_first(line->bytes), "stop") && token_count_is(line->bytes, 1u);
 }
 
-/* A line that ended joins those that wait. */
+/* A line that ended, or the end of all lines, joins those that wait. */
 static void queue_line(struct console *console, enum line_state state)
 {
     const struct line *line = &console->line;
+    const char *bytes = state == LINE_LAST ? "" : line->bytes;
     char *entry = console->waiting + console->waiting_size;
     size_t length = 0u;
 
-    while (line->bytes[length] != '\0') {
+    while (bytes[length] != '\0') {
         length++;
     }
     entry[0] = (char)state;
-    memcpy(entry + 1, line->bytes, length + 1u);
+    memcpy(entry + 1, bytes, length + 1u);
     console->waiting_size += length + 2u;
     console->stops_waiting += state == LINE_DONE && is_stop(line) ? 1u : 0u;
 }
@@ -152,6 +153,8 @@ static void obey_next(struct console *console)
     memmove(console->waiting, console->waiting + length + 2u, console->waiting_size);
     if (state == LINE_DONE) {
         commands_obey(console);
+    } else if (state == LINE_LAST) {
+        executive_stop(console->executive); /* nobody is left to say stop */
     } else {
         console_refuse(console, error, token_first(""), error_text(error));
     }

@@ -1,7 +1,7 @@
 /* The line editor. */
 #include "protocol/line.h"
 
-enum { BACKSPACE = 0x08, RUBOUT = 0x7f };
+enum { END_OF_TEXT = 0x04, BACKSPACE = 0x08, RUBOUT = 0x7f };
 
 static void open_line(struct line *line)
 {
@@ -93,9 +93,9 @@ enum line_state line_take(struct line *line, uint8_t byte, struct text *text)
         append(line, ' ', text);
     } else if (byte >= ' ' && byte < RUBOUT) {
         append(line, (char)byte, text);
-    } else {
+    } else if (byte != END_OF_TEXT || line->length > 0u) {
         line->garbage++;
         line->is_damaged = true;
     }
-    return LINE_OPEN;
+    return byte == END_OF_TEXT ? LINE_LAST : LINE_OPEN;
 }

@@ -1,5 +1,6 @@
 /* Bytes become lines. A line is printable ASCII of at most LINE_LENGTH_MAX characters; tab counts as a blank, backspace and
- * delete rub out, CR, LF and CR LF end it. Lines of blanks alone are none. What is typed is echoed into the output. */
+ * delete rub out, CR, LF and CR LF end it. Lines of blanks alone are none. EOT says that no line will follow. What is typed
+ * is echoed into the output. */
 #ifndef PROTOCOL_LINE_H
 #define PROTOCOL_LINE_H
 
@@ -15,7 +16,8 @@ enum line_state {
     LINE_OPEN,     /* goes on */
     LINE_DONE,     /* bytes holds it */
     LINE_TOO_LONG, /* ended, and more was typed than fits */
-    LINE_DAMAGED   /* ended, and holds bytes that are no text, or has lost some */
+    LINE_DAMAGED,  /* ended, and holds bytes that are no text, or has lost some */
+    LINE_LAST      /* there will be no more; a line in progress stays open, and damaged */
 };
 
 struct line {

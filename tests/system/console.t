@@ -3,6 +3,7 @@
 garbage, a paste of 10,000 lines, a fault and the way out of it."""
 import os
 import random
+import subprocess
 import sys
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
@@ -70,7 +71,7 @@ with Firmware() as firmware:
     tap.check(firmware.ask("get v0") == {"v0": "1", "unit": "m/s"}, "the next good line works")
 
 with Firmware(limit_s=120) as firmware:
-    firmware.ask("set substeps 16 tick 500")
+    firmware.ask("set substeps 16 tick 500 cn 0.2")  # undamped, so many changes of the load could throw the pad out
     firmware.ask("run")
     for number in range(10000):
         firmware.send(f"set N0 {1 + number % 4}" if number % 10 == 0 else "get N0")
@@ -111,4 +112,14 @@ with Firmware() as firmware:
     firmware.ask("reset")
     status = firmware.ask("status")
     tap.check(status["state"] == "ready" and status["step"] == "0", "a reset leaves it", str(status))
+
+for line, answer in [("run", b"ok run "), ("stream csv x every 10 force\rrun", b"ok run "), ("step 5000", b"ok step done=5000 ")]:
+    try:
+        host = subprocess.run([os.environ["HOST_IMAGE"]], input=b"echo off\r" + line.encode() + b"\r",
+                              stdout=subprocess.PIPE, timeout=20)
+        ended, said = host.returncode == 0, host.stdout.splitlines()
+    except subprocess.TimeoutExpired:
+        ended, said = False, []
+    tap.check(ended and any(words.startswith(answer) for words in said), f"the host's process ends with its input: {line!r}",
+              *map(str, said[-3:]))
 tap.finish()

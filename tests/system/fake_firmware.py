@@ -88,7 +88,7 @@ class Firmware:
         for row in self.rows:
             wanted = row_set(row)
             if all(self.values[key] == wanted[key] for key in wanted
-                   if key not in ("spp", "normal", "arith", "substeps", "tick")):
+                   if key not in ("spp", "normal", "method", "arith", "substeps", "tick")):
                 return row
         raise Refused("error usage no row of the table has these parameters")
 

@@ -148,7 +148,21 @@ def golden_tests(tap, folder):
     tap.ok(run.returncode == 1 and "no-such-program-at-all: command not found" in run.stderr, "a missing command", run)
 
     run = tool("golden", "--cases", cases, "--out", "/dev/full", "--", *FAKE, "--cases", cases)
-    tap.ok(run.returncode == 1 and "/dev/full: No space left on device" in run.stderr, "a full disk", run)
+    tap.ok(run.returncode == 1 and "/dev/full: No space left on device" in run.stderr and "passed" not in run.stdout,
+           "a full disk", run)
+    run = golden("--refuse", "set")
+    tap.ok(run.returncode == 1 and "no reference" not in run.stdout and
+           "no number of any row could be compared" in run.stdout and run.stdout.endswith("\n0 passed, 8 failed\n"),
+           "rows that are all refused leave nothing to compare", run)
+    inputs = COLUMNS.split(",").index("x_20")
+    bare = write(folder + "/bare.csv", "\n".join(
+        ",".join(line.split(",")[:inputs]) for line in (COLUMNS + "\n" + ROWS).splitlines()) + "\n")
+    run = golden(table=bare, more=())
+    tap.ok(run.returncode == 0 and "no reference columns: its rows only ran" in run.stdout and
+           run.stdout.endswith("8 passed, 0 failed\n"), "a table of inputs alone only runs", run)
+    run = golden("--refuse", "set m 0.3 c 0.01 ke 1 kt 1 k 1 cn 0 v0 1 alpha 0 contact bilateral spp 64 normal rk4 method naive",
+                 more=("--method", "naive"))
+    tap.ok(run.returncode == 1 and "sticks: error not-served" in run.stderr, "the method goes to the firmware", run)
     run = tool("golden", "--cases", cases, "--out", folder + "/made", "--", *FAKE, "--cases", cases)
     tap.ok(run.returncode == 0 and os.listdir(folder + "/made") == ["cases.csv"], "a folder to write to", run)
     run = tool("golden", "--cases", cases, "--out", folder + "/a/b", "--", *FAKE, "--cases", cases)

@@ -256,6 +256,16 @@ static void check_stop(void)
     tap_check(bench.console.waiting_size == 0u, "and nothing is forgotten");
 }
 
+/* The end of all input: what was said is done, what would go on for ever ends. */
+static void check_end(void)
+{
+    bench_open();
+    (void)bench_say("run\r\x04");
+    tap_check(bench.oks == 1u && bench.errors == 0u && !executive_wants_tick(&bench.executive),
+              "the end of input ends a free run, and is not answered");
+    tap_check(bench_starts(bench_say("defaults\rstep 500\r\x04"), "ok step done=500 "), "but no step under way");
+}
+
 /* Noise of any kind, then a good line. */
 static void check_garbage(void)
 {
@@ -418,6 +428,7 @@ void test_console(void)
     check_set();
     check_step();
     check_stop();
+    check_end();
     check_garbage();
     check_paste();
     check_echo();

@@ -102,6 +102,8 @@ static void check_damage(void)
     }
     (void)line_take(&line, 0u, &echo);
     tap_check(type("\r") == LINE_DAMAGED, "a zero too, even alone");
+    tap_check(type("\x04") == LINE_LAST && type("a\r") == LINE_DONE,
+              "EOT says that no line will follow, and harms none");
     (void)type("se");
     line_damage(&line);
     tap_check(type("t m 1\r") == LINE_DAMAGED && type("a\r") == LINE_DONE, "lost bytes damage one line");

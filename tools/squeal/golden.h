@@ -41,7 +41,7 @@ extern const char *const golden_names[GOLDEN_COLUMNS];
 
 struct golden_plan {
     struct csv cases;
-    const char *spp, *normal, *arith; /* as the firmware's parameters of these symbols */
+    const char *spp, *normal, *method, *arith; /* as the firmware's parameters of these symbols */
     long steps_per_period;
     bool is_asymptotic; /* also runs to the attractor and measures there */
     long jobs;

@@ -224,6 +224,16 @@ static bool is_watched(const struct check *check, size_t row)
            strcmp(check->results[row].cells[GOLDEN_VERDICT], "watch") == 0;
 }
 
+static bool has_reference(const struct check *check)
+{
+    for (int column = 0; column < GOLDEN_COLUMNS; column++) {
+        if (csv_column(&check->plan->cases, golden_names[column]) >= 0) {
+            return true;
+        }
+    }
+    return false;
+}
+
 static void worst_print(const struct check *check)
 {
     bool has_any = false;
@@ -236,8 +246,10 @@ static void worst_print(const struct check *check)
             has_any = true;
         }
     }
-    if (!has_any) {
-        printf("the table has no reference columns: nothing was compared\n");
+    if (!has_reference(check)) {
+        printf("the table has no reference columns: its rows only ran, nothing was compared\n");
+    } else if (!has_any) {
+        printf("no number of any row could be compared\n");
     }
 }
 

@@ -125,6 +125,7 @@ static void row_set(struct row *row)
     line_append(row, line, "contact", contacts[cell_choice(row, "contact", sizeof contacts / sizeof contacts[0])]);
     line_append(row, line, "spp", row->plan->spp);
     line_append(row, line, "normal", row->plan->normal);
+    line_append(row, line, "method", row->plan->method);
     line_append(row, line, "arith", row->plan->arith);
     (void)row_send(row, line);
 

@@ -24,6 +24,7 @@ static const char help[] = "usage: squeal-tool golden --cases IN.csv --out OUT [
                            "  --out OUT        a CSV file, or a folder for one that is called like the table\n"
                            "  --spp N          model steps per normal period (64)\n"
                            "  --normal M       exact or rk4 (rk4)\n"
+                           "  --method M       event or naive, which goes with rk4 only (event)\n"
                            "  --arith A        number format of the plant (f32)\n"
                            "  --asymptotic     also run to the attractor; compares size, frequency and verdict\n"
                            "  --jobs J         firmware processes at a time (2)\n"
