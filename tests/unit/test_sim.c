@@ -57,7 +57,8 @@ static void check_fault(void)
                   sim->f32.x == frozen.f32.x && sim->f32.v == frozen.f32.v && sim->f32.normal.y == frozen.f32.normal.y,
               "it stands still then, to the bit");
     sim_sample(sim, &sample);
-    tap_check(sample.is_fault == 1u && sample.step == frozen.step && sample_value(&sample, sample.v) == frozen.f32.v, "and can still be read");
+    tap_check(sample.is_fault == 1u && sample.step == frozen.step && sample_value(&sample, sample.v) == frozen.f32.v,
+              "and can still be read");
     sim_apply(sim, &plant.plan);
     tap_check(!sim_step(sim) && sim->step == frozen.step && sim->detector.verdict.motion == CLASS_DIVERGING,
               "a new set does not free it");

@@ -137,7 +137,7 @@ static void check_agreement(void)
     agree("N0 1 kt 0.05 k 0 normal exact", 5e-6f);  /* x in units of 8 */
     agree("N0 1 c 2.2 cn 2.2 normal exact", 5e-6f); /* z at its limit */
     agree("N0 5 method naive", 1e-3f);              /* whose crossings are not located */
-    agree("N0 1 spp 16 kt 0.5 k 0.5", 2e-3f); /* y inside a step is a cubic here */
+    agree("N0 1 spp 16 kt 0.5 k 0.5", 2e-3f);       /* y inside a step is a cubic here */
     agree("N0 1 spp 1024", 2e-5f);
 }
 
