@@ -76,6 +76,25 @@ echo 'See [here](nowhere.md).' >"$work/a.md"
 red 'documents: a dead link' 'no such file: nowhere.md' "$root/tools/check_docs" "$work"
 echo 'Type `make coffee`, then `make test`.' >"$work/a.md"
 red 'documents: an unknown target' 'no such target: make coffee' "$root/tools/check_docs" "$work"
+page() { # name, the page, complaint
+    printf '%b\n' "$2" >"$work/a.md"
+    red "documents: $1" "$3" "$root/tools/check_docs" "$work"
+}
+page 'a file that is none' 'The rules are in `sim/nowhere.c`, the links in `a.md`.' 'no file of this name: sim/nowhere.c'
+page 'a number not filled in' 'It takes {count} steps.' 'not filled in: {count}'
+page 'an empty table' '<!-- table: numbers -->\n\n<!-- end -->' 'a.md:3: nothing between the markers'
+page 'an empty place in a line' 'It takes <!-- steps --> <!-- end --> steps.' 'a.md:1: nothing between the markers'
+printf '%s\n' '<!-- table: x -->' '| `a.md` |' '<!-- end -->' 'Then <!-- y --> 5 <!-- end -->.' >"$work/a.md"
+ok 'documents: a page that is filled in passes' "$root/tools/check_docs" "$work"
+
+if command -v clang-format >/dev/null; then
+    ok 'the formatting is that of .clang-format' sh -c 'clang-format --dry-run -Werror $(git ls-files "*.c" "*.h") </dev/null'
+    printf 'int  f( void ){return 0;}\n' >"$work/a.c"
+    red 'formatting: a file that has another' 'code should be clang-formatted' \
+        clang-format --style=file:"$root/.clang-format" --dry-run -Werror "$work/a.c"
+else
+    echo '# clang-format is not installed: the formatting was not looked at'
+fi
 
 summary() { # name, last line, then the commands that make a test script
     printf '#!/bin/sh\n%s\n' "$3" >"$work/a.t"
