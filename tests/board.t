@@ -8,7 +8,7 @@ import time
 
 BOARD = os.environ["BOARD"]
 IMAGE = os.environ["PROBE"]
-COMMAND = ["timeout", "30", *os.environ["BOARD_RUN"].split(), IMAGE if os.sep in IMAGE else "./" + IMAGE]
+COMMAND = ["timeout", "150", *os.environ["BOARD_RUN"].split(), IMAGE if os.sep in IMAGE else "./" + IMAGE]
 PASTE = bytes(33 + (i * 7 + i // 91) % 90 for i in range(200000))
 FAULTS = (("0", "a store to the null page", 4, 0x82), ("1", "a load from nowhere", 5, 0x8200),
           ("2", "a division by zero", 6, 0x2000000), ("3", "an overflown stack", 4, 0x92), ("4", "an unused interrupt", 36, 0))

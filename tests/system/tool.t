@@ -14,7 +14,7 @@ import time
 HERE = os.path.dirname(os.path.abspath(__file__))
 TOOL = os.environ.get("TOOL", "build/tools/squeal-tool")
 FAKE = [sys.executable, os.path.join(HERE, "fake_firmware.py")]
-LIMIT_S = 60
+LIMIT_S = 180
 
 COLUMNS = ("case,m,c,v0,mus,alpha,ke,kt,k,cn,ntype,N0,N1,t1,t2,contact,mumin,x0,xd0,y0,yd0,x_20,v_20,xmax_20,xmin_20,"
            "vmax_20,vmin_20,stick_20,x_100,v_100,ntrans,nwin,xpp,stick,slipminus,f_up,slip_floquet_rate,t_v10,class")
