@@ -140,6 +140,22 @@ float fmath_log2(float value)
     return (float)((parts.exponent + 23) * 8388608 + (int32_t)fraction) * power_of_two(-23);
 }
 
+/* The series of e^(ln 2 rest) about 0, with |rest| <= 1/2. */
+float fmath_exp2(float value)
+{
+    const int32_t whole = fmath_round_i32(value);
+    const float x = (value - (float)whole) * 0.693147181f;
+    float sum = 1.0f / 5040.0f;
+
+    sum = sum * x + 1.0f / 720.0f;
+    sum = sum * x + 1.0f / 120.0f;
+    sum = sum * x + 1.0f / 24.0f;
+    sum = sum * x + 1.0f / 6.0f;
+    sum = sum * x + 0.5f;
+    sum = sum * x + 1.0f;
+    return (sum * x + 1.0f) * power_of_two((int)whole);
+}
+
 int32_t fmath_round_i32(float value)
 {
     const int32_t whole = (int32_t)value;

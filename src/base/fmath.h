@@ -22,6 +22,9 @@ int32_t fmath_sine_turns_q30(uint32_t turns);
  * gives its exponent exactly. */
 float fmath_log2(float value);
 
+/* 2^value for |value| <= 125, error below 2e-7 of it; a whole number gives its power exactly. */
+float fmath_exp2(float value);
+
 /* Nearest integer, ties away from zero; the caller keeps |value| below 2^31. */
 int32_t fmath_round_i32(float value);
 
@@ -46,6 +49,7 @@ static inline float fmath_from_bits(uint32_t bits)
 bool fmath_is_finite(float value);
 
 static inline float fmath_abs(float value) { return __builtin_fabsf(value); }
+
 /* value + change, where what rounding took away is kept in *rest and comes in again with the next change: a state that
  * grows by small steps keeps their sum to twice the digits (Kahan). */
 static inline float fmath_add_kept(float value, float change, float *rest)

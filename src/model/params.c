@@ -105,8 +105,7 @@ enum error params_parse(const struct params_info *info, const char *text, size_t
     return decimal_parse_f32(text, length, value) ? ERROR_OK : ERROR_BAD_NUMBER;
 }
 
-/* Choices hold whole numbers, and what says so in its unit. */
-static bool is_whole(const struct params_info *info)
+bool params_is_whole(const struct params_info *info)
 {
     const char *unit = info->unit;
 
@@ -124,7 +123,7 @@ struct params_problem params_check(const struct params *params)
         const float value = params_value(params, info);
 
         /* Asks "is it inside?", so that NaN, which is neither below nor above, is refused. */
-        if (!(value >= info->low && value <= info->high) || (is_whole(info) && (float)(int32_t)value != value)) {
+        if (!(value >= info->low && value <= info->high) || (params_is_whole(info) && (float)(int32_t)value != value)) {
             problem = (struct params_problem){ERROR_OUT_OF_RANGE, info, info->low, info->high};
             return problem;
         }

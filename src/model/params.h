@@ -63,6 +63,9 @@ void params_set(struct params *params, const struct params_info *info, float val
 /* Is the parameter a choice? Then its unit is the list of names. [ANY] */
 bool params_is_choice(const struct params_info *info);
 
+/* Does it hold whole numbers only: a choice, or what says so in its unit? [ANY] */
+bool params_is_whole(const struct params_info *info);
+
 /* Start and length of a choice's name; length 0 if there is no such index. [ANY] */
 const char *params_choice_name(const struct params_info *info, unsigned index, size_t *length);
 

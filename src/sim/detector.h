@@ -58,6 +58,7 @@ struct detector_verdict {
     bool has_growth;    /* growth could be measured */
     int32_t growth_q16; /* log2 of the free amplitude per frame */
     int32_t growth_error_q16;
+    int32_t free_log2_q16; /* log2 of the free part's amplitude in the last frame; below 0: nothing but rounding */
     int32_t x_max, x_min, v_max, v_min; /* over the window */
     int32_t acceleration;               /* largest change of v in a step, over the window */
     uint64_t variance;                  /* of v over the last frame, in 2^-32 */

@@ -41,6 +41,8 @@ void detector_rules_measure(struct detector *detector)
         detector->change_sum += (detector->change_sum >> 2) + (detector->change_sum >> 4) + (detector->change_sum >> 6);
     }
     frame->change_log2_q16 = detector->change_sum >= NOISE_SUM ? fixed_log2_q16(detector->change_sum) : -1;
+    /* An amplitude, so half the logarithm of its square. */
+    verdict->free_log2_q16 = frame->change_log2_q16 < 0 ? -1 : frame->change_log2_q16 / 2;
 }
 
 /* Straight line through the logarithms of the last four frames: its slope, and as error twice the largest distance from

@@ -1,0 +1,67 @@
+/* The grid of a map. */
+#include "sim/scan.h"
+
+#include "base/fmath.h"
+
+static bool is_inside(const struct params_info *info, float value)
+{
+    return value >= info->low && value <= info->high &&
+           (!params_is_whole(info) || (float)fmath_round_i32(value) == value);
+}
+
+enum error scan_axis_check(const struct scan_axis *axis)
+{
+    if (!is_inside(axis->info, axis->from) || !is_inside(axis->info, axis->to)) {
+        return ERROR_OUT_OF_RANGE;
+    }
+    if (axis->is_log && !(axis->from * axis->to > 0.0f) && !(axis->from / axis->to > 0.0f)) {
+        return ERROR_USAGE;
+    }
+    return ERROR_OK;
+}
+
+float scan_axis_value(const struct scan_axis *axis, uint32_t place)
+{
+    float share;
+    float value;
+
+    if (place == 0u || axis->points < 2u) {
+        return axis->from;
+    }
+    if (place >= axis->points - 1u) {
+        return axis->to;
+    }
+    share = (float)place / (float)(axis->points - 1u);
+    if (axis->is_log) {
+        value = axis->from * fmath_exp2(share * fmath_log2(axis->to / axis->from));
+    } else {
+        value = axis->from + (axis->to - axis->from) * share;
+    }
+    return params_is_whole(axis->info) ? (float)fmath_round_i32(value) : value;
+}
+
+uint32_t scan_points(const struct scan *scan)
+{
+    uint32_t points = 1u;
+
+    for (uint32_t i = 0u; i < scan->axis_count; i++) {
+        points *= scan->axes[i].points;
+    }
+    return points;
+}
+
+uint32_t scan_place(const struct scan *scan, uint32_t point, uint32_t axis)
+{
+    if (axis >= scan->axis_count) {
+        return 0u;
+    }
+    return axis == 0u ? point % scan->axes[0].points : point / scan->axes[0].points;
+}
+
+void scan_params(const struct scan *scan, uint32_t point, struct params *params)
+{
+    *params = scan->base;
+    for (uint32_t i = 0u; i < scan->axis_count; i++) {
+        params_set(params, scan->axes[i].info, scan_axis_value(&scan->axes[i], scan_place(scan, point, i)));
+    }
+}
