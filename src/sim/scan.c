@@ -14,7 +14,7 @@ enum error scan_axis_check(const struct scan_axis *axis)
     if (!is_inside(axis->info, axis->from) || !is_inside(axis->info, axis->to)) {
         return ERROR_OUT_OF_RANGE;
     }
-    if (axis->is_log && !(axis->from * axis->to > 0.0f) && !(axis->from / axis->to > 0.0f)) {
+    if (axis->is_log && !(axis->from > 0.0f && axis->to > 0.0f) && !(axis->from < 0.0f && axis->to < 0.0f)) {
         return ERROR_USAGE;
     }
     return ERROR_OK;

@@ -192,7 +192,8 @@ bool trial_growth(const struct trial *trial, float *growth, float *error)
     const struct trial_line *line = &trial->line;
     const float to_period = LN2 / 256.0f / (float)DETECTOR_FRAME_PERIODS;
     const float count = (float)line->count;
-    const float spread = count * (count * count - 1.0f) / 12.0f; /* of the places about their mean, squared and summed */
+    const float spread =
+        count * (count * count - 1.0f) / 12.0f; /* of the places about their mean, squared and summed */
     const float sum = from_i64(line->sum);
     float slope;
     float rest;
