@@ -115,15 +115,18 @@ bool params_is_whole(const struct params_info *info)
     return params_is_choice(info) || is_named(info->unit, "count", 5u) || is_named(unit, ", whole", 7u);
 }
 
+bool params_accepts(const struct params_info *info, float value)
+{
+    /* Asks "is it inside?", so that NaN, which is neither below nor above, is refused. */
+    return value >= info->low && value <= info->high && (!params_is_whole(info) || (float)(int32_t)value == value);
+}
+
 struct params_problem params_check(const struct params *params)
 {
     struct params_problem problem = {ERROR_OK, NULL, 0.0f, 0.0f};
 
     for (const struct params_info *info = params_table; info < params_table + params_count; info++) {
-        const float value = params_value(params, info);
-
-        /* Asks "is it inside?", so that NaN, which is neither below nor above, is refused. */
-        if (!(value >= info->low && value <= info->high) || (params_is_whole(info) && (float)(int32_t)value != value)) {
+        if (!params_accepts(info, params_value(params, info))) {
             problem = (struct params_problem){ERROR_OUT_OF_RANGE, info, info->low, info->high};
             return problem;
         }

@@ -66,6 +66,9 @@ bool params_is_choice(const struct params_info *info);
 /* Does it hold whole numbers only: a choice, or what says so in its unit? [ANY] */
 bool params_is_whole(const struct params_info *info);
 
+/* Does a value lie in its range, and is it whole where it has to be? NaN lies in no range. [ANY] */
+bool params_accepts(const struct params_info *info, float value);
+
 /* Start and length of a choice's name; length 0 if there is no such index. [ANY] */
 const char *params_choice_name(const struct params_info *info, unsigned index, size_t *length);
 

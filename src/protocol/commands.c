@@ -42,12 +42,14 @@ void console_refuse_usage(struct console *console)
     console_end(console);
 }
 
-void console_refuse_count(struct console *console, const char *key, struct token word, uint32_t high)
+void console_refuse_count(struct console *console, const char *key, struct token word, uint32_t low, uint32_t high)
 {
     console_begin_error(console, ERROR_OUT_OF_RANGE);
     text_key_text(console->text, key, "");
     token_write(console->text, word);
-    text_write(console->text, ": 1 .. ");
+    text_write(console->text, ": ");
+    text_u64(console->text, low);
+    text_write(console->text, " .. ");
     text_u64(console->text, high);
     text_write(console->text, ", a whole number");
     console_end(console);
@@ -166,7 +168,12 @@ static void command_stop(struct console *console)
 {
     console->stops_waiting--;
     console_start_task(console, CONSOLE_TASK_STOP);
-    console_halt(console);
+    if (console->has_spent_stop) {
+        console->has_spent_stop = false;
+        console->is_ending = true;
+    } else {
+        console_halt(console);
+    }
 }
 
 /* May steps be granted, and how many? */
@@ -179,7 +186,8 @@ static bool read_count(struct console *console, uint32_t high, uint32_t *count)
         return false;
     }
     if (!token_number(word, 1u, high, count)) {
-        console_refuse_count(console, token_is(token_first(console->command), "step") ? "n" : "periods", word, high);
+        console_refuse_count(console, token_is(token_first(console->command), "step") ? "n" : "periods", word, 1u,
+                             high);
         return false;
     }
     if (console_is_in_fault(console)) {
@@ -234,6 +242,8 @@ static void command_verdict(struct console *console)
     report_write_verdict(console->text, &report, executive_plan(console->executive));
     console_end(console);
 }
+
+static void command_scan(struct console *console) { study_scan_obey(console); }
 
 static void command_selftest(struct console *console)
 {

@@ -21,6 +21,7 @@
 #include "protocol/line.h"
 #include "protocol/selftest.h"
 #include "protocol/stream.h"
+#include "protocol/study.h"
 #include "sim/executive.h"
 
 enum {
@@ -49,7 +50,8 @@ enum console_task {
     CONSOLE_TASK_MEASURE,
     CONSOLE_TASK_STREAM,
     CONSOLE_TASK_DEMO,
-    CONSOLE_TASK_SELFTEST
+    CONSOLE_TASK_SELFTEST,
+    CONSOLE_TASK_SCAN
 };
 
 /* Steps under way for a task. */
@@ -80,6 +82,8 @@ struct console {
     struct stream_setup stream_wanted;
     struct demo demo;
     struct selftest selftest;
+    struct study study;
+    bool has_spent_stop; /* it ended a study: the stop itself is only answered */
 
     struct { /* what the last notice said, since the last reset */
         uint8_t epoch, propensity;

@@ -16,8 +16,8 @@ void console_refuse(struct console *console, enum error error, struct token word
 /* "error usage <command and its arguments>" */
 void console_refuse_usage(struct console *console);
 
-/* "error out-of-range <key>=<word>: 1 .. <high>, a whole number" */
-void console_refuse_count(struct console *console, const char *key, struct token word, uint32_t high);
+/* "error out-of-range <key>=<word>: <low> .. <high>, a whole number" */
+void console_refuse_count(struct console *console, const char *key, struct token word, uint32_t low, uint32_t high);
 
 /* Has the plant left its domain, and is frozen? */
 bool console_is_in_fault(const struct console *console);
@@ -63,6 +63,10 @@ void settings_set(struct console *console);
 void settings_preset(struct console *console);
 void settings_defaults(struct console *console);
 void settings_reset(struct console *console);
+
+/* "error bad-number|out-of-range <symbol>=<word>: <what would do>" */
+void settings_refuse_value(struct console *console, enum error error, const struct params_info *info,
+                           struct token word);
 void settings_answer(struct console *console, const struct executive_report *report);
 
 #endif

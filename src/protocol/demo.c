@@ -32,7 +32,7 @@ void demo_obey(struct console *console)
         return;
     }
     if (word.length != 0u && !token_number(word, 1u, BASE_COUNT(acts), &number)) {
-        console_refuse_count(console, "act", word, BASE_COUNT(acts));
+        console_refuse_count(console, "act", word, 1u, BASE_COUNT(acts));
         return;
     }
     console->demo.act = number == 0u ? 0u : (uint8_t)(number - 1u);
@@ -194,7 +194,7 @@ static void tell_beginning(struct console *console, const struct sim_plan *plan)
 static void close_act(struct console *console, const struct executive_report *report)
 {
     const struct sim_plan *plan = executive_plan(console->executive);
-    const struct report_verdict judged = report_judge(report, plan);
+    const struct report_verdict judged = report_judge(&report->verdict, &plan->scale);
 
     console_begin_body(console);
     text_write(console->text, "verdict");

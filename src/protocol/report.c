@@ -86,10 +86,8 @@ static void judge_motion(struct report_verdict *judged, const struct detector_ve
     judged->slip_minus = share(verdict->slip_minus);
 }
 
-struct report_verdict report_judge(const struct executive_report *report, const struct sim_plan *plan)
+struct report_verdict report_judge(const struct detector_verdict *verdict, const struct scale *scale)
 {
-    const struct detector_verdict *verdict = &report->verdict;
-    const struct scale *scale = &plan->scale;
     const float frame_s = (float)DETECTOR_FRAME_PERIODS * (float)scale->steps_per_period * scale->step_s;
     const float none = NOT_A_NUMBER;
     struct report_verdict judged = {verdict->propensity,
@@ -122,6 +120,21 @@ struct report_verdict report_judge(const struct executive_report *report, const 
     return judged;
 }
 
+struct report_motion report_motion(const struct measure *measure, const struct scale *scale)
+{
+    const float frequency_steps = measure_frequency(measure);
+    const float none = NOT_A_NUMBER;
+    struct report_motion motion = {none, none, none};
+
+    if (measure->done == 0u) {
+        return motion;
+    }
+    motion.amplitude_um = 0.5e6f * range(measure->x_max, measure->x_min) * metres(scale);
+    motion.velocity_mm_s = 0.5e3f * range(measure->v_max, measure->v_min) * metres_per_s(scale);
+    motion.frequency_hz = frequency_steps > 0.0f ? frequency_steps / scale->step_s : none;
+    return motion;
+}
+
 void report_field(struct text *text, const char *key, float value)
 {
     if (fmath_is_finite(value)) {
@@ -131,8 +144,7 @@ void report_field(struct text *text, const char *key, float value)
     }
 }
 
-/* "stickslip-p1" */
-static void write_class(struct text *text, const struct report_verdict *judged)
+void report_write_class(struct text *text, const struct report_verdict *judged)
 {
     text_key_text(text, "class", detector_class_name(judged->motion));
     if (judged->period > 0u) {
@@ -155,13 +167,13 @@ static void write_prediction(struct text *text, const struct prediction *predict
 
 void report_write_verdict(struct text *text, const struct executive_report *report, const struct sim_plan *plan)
 {
-    const struct report_verdict judged = report_judge(report, plan);
+    const struct report_verdict judged = report_judge(&report->verdict, &plan->scale);
     const struct scale *scale = &plan->scale;
     const struct params *params = &plan->params;
     const float v10_steps = fmath_from_u64(report->v10_step) + (float)report->v10_fraction_q15 / 32768.0f;
 
     text_key_text(text, "propensity", detector_propensity_name(judged.propensity));
-    write_class(text, &judged);
+    report_write_class(text, &judged);
     report_field(text, "amplitude_um", judged.amplitude_um);
     report_field(text, "velocity_mm_s", judged.velocity_mm_s);
     report_field(text, "velocity_mm_s_rms", judged.velocity_mm_s_rms);
@@ -184,7 +196,6 @@ void report_write_measure(struct text *text, const struct executive_report *repo
 {
     const struct measure *measure = &report->measure;
     const struct scale *scale = &plan->scale;
-    const float frequency_steps = measure_frequency(measure);
 
     text_key_u64(text, "step", report->now.step);
     text_key_product(text, "t", report->now.step, scale->step_s, DECIMAL_DIGITS_EXACT);
@@ -197,5 +208,5 @@ void report_write_measure(struct text *text, const struct executive_report *repo
     report_field(text, "vmin", (float)measure->v_min * metres_per_s(scale));
     report_field(text, "stick", measure_share(measure, measure->stick));
     report_field(text, "slipminus", measure_share(measure, measure->slip_minus));
-    report_field(text, "f_up", frequency_steps > 0.0f ? frequency_steps / scale->step_s : NOT_A_NUMBER);
+    report_field(text, "f_up", report_motion(measure, scale).frequency_hz);
 }

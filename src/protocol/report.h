@@ -26,7 +26,16 @@ struct report_verdict {
     float stick, slip_minus; /* shares of the time */
 };
 
-struct report_verdict report_judge(const struct executive_report *report, const struct sim_plan *plan);
+struct report_verdict report_judge(const struct detector_verdict *verdict, const struct scale *scale);
+
+/* A measurement as numbers for people; all nan while nothing was measured. */
+struct report_motion {
+    float amplitude_um;  /* half the range of x */
+    float velocity_mm_s; /* half the range of v */
+    float frequency_hz;  /* nan where nothing oscillates */
+};
+
+struct report_motion report_motion(const struct measure *measure, const struct scale *scale);
 
 /* Estimate of the sound pressure level of a pad that moves with this rms velocity, for tones in which the A-weighting lies
  * within 2 dB of nothing (0.8 to 9 kHz); nan elsewhere. The pad is taken as a rigid piston of 0.01 m2 with radiation
@@ -37,6 +46,9 @@ float report_sound_level(float velocity_m_per_s_rms, float frequency_hz);
 /* Fields " key=value" of the answers. [MAIN] */
 void report_write_verdict(struct text *text, const struct executive_report *report, const struct sim_plan *plan);
 void report_write_measure(struct text *text, const struct executive_report *report, const struct sim_plan *plan);
+
+/* " class=stickslip-p1 period=1" */
+void report_write_class(struct text *text, const struct report_verdict *judged);
 
 /* A float as a field, nine digits; nan if it is not finite. */
 void report_field(struct text *text, const char *key, float value);

@@ -105,6 +105,20 @@ static void refuse_problem(struct console *console, const struct params_problem 
     console_end(console);
 }
 
+void settings_refuse_value(struct console *console, enum error error, const struct params_info *info, struct token word)
+{
+    console_begin_error(console, error);
+    text_key_text(console->text, info->symbol, "");
+    token_write(console->text, word);
+    text_write(console->text, ": ");
+    if (error == ERROR_BAD_NUMBER) {
+        text_write(console->text, error_text(error));
+        text_write(console->text, "; ");
+    }
+    values_write_allowed(console->text, info, info->low, info->high);
+    console_end(console);
+}
+
 /* A word that cannot be read as a parameter or as its value. */
 static void refuse_word(struct console *console, enum error error, const struct params_info *info, struct token bad)
 {
@@ -116,16 +130,7 @@ static void refuse_word(struct console *console, enum error error, const struct 
         console_refuse(console, error, bad, no_parameter);
         return;
     }
-    console_begin_error(console, error);
-    text_key_text(console->text, info->symbol, "");
-    token_write(console->text, bad);
-    text_write(console->text, ": ");
-    if (error == ERROR_BAD_NUMBER) {
-        text_write(console->text, error_text(error));
-        text_write(console->text, "; ");
-    }
-    values_write_allowed(console->text, info, info->low, info->high);
-    console_end(console);
+    settings_refuse_value(console, error, info, bad);
 }
 
 /* Orders the set. A plant that stands at its first step has nothing to lose: there the scale follows the set, and every

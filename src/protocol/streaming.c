@@ -83,7 +83,7 @@ static void refuse(struct console *console, enum error error, struct token bad)
     if (error == ERROR_USAGE) {
         console_refuse_usage(console);
     } else if (error == ERROR_OUT_OF_RANGE) {
-        console_refuse_count(console, "every", bad, STREAM_EVERY_MAX);
+        console_refuse_count(console, "every", bad, 1u, STREAM_EVERY_MAX);
     } else {
         console_refuse(console, error, bad, "no signal has this name; help stream lists them");
     }

@@ -202,7 +202,7 @@ static bool continue_selftest(struct console *console)
     return true;
 }
 
-/* A stop waits in line: the steps under way end here. */
+/* A stop waits in line: what is under way ends here. */
 static bool ends_early(struct console *console)
 {
     switch (console->task) {
@@ -210,6 +210,7 @@ static bool ends_early(struct console *console)
     case CONSOLE_TASK_MEASURE:
     case CONSOLE_TASK_DEMO:
     case CONSOLE_TASK_SELFTEST:
+    case CONSOLE_TASK_SCAN:
         return console->stops_waiting > 0u;
     case CONSOLE_TASK_NONE:
     case CONSOLE_TASK_SETTING:
@@ -235,6 +236,10 @@ bool console_task_continue(struct console *console)
     if (console->is_ending) {
         return continue_stop(console);
     }
+    if (ends_early(console) && study_is_under_way(console)) {
+        study_cut_short(console);
+        return true;
+    }
     if (ends_early(console) && !executive_has_order(console->executive)) {
         console_halt(console);
         return true;
@@ -251,6 +256,8 @@ bool console_task_continue(struct console *console)
         return demo_continue(console);
     case CONSOLE_TASK_SELFTEST:
         return continue_selftest(console);
+    case CONSOLE_TASK_SCAN:
+        return study_scan_continue(console);
     case CONSOLE_TASK_NONE:
     case CONSOLE_TASK_STOP:
     default:

@@ -3,15 +3,9 @@
 
 #include "base/fmath.h"
 
-static bool is_inside(const struct params_info *info, float value)
-{
-    return value >= info->low && value <= info->high &&
-           (!params_is_whole(info) || (float)fmath_round_i32(value) == value);
-}
-
 enum error scan_axis_check(const struct scan_axis *axis)
 {
-    if (!is_inside(axis->info, axis->from) || !is_inside(axis->info, axis->to)) {
+    if (!params_accepts(axis->info, axis->from) || !params_accepts(axis->info, axis->to)) {
         return ERROR_OUT_OF_RANGE;
     }
     if (axis->is_log && !(axis->from > 0.0f && axis->to > 0.0f) && !(axis->from < 0.0f && axis->to < 0.0f)) {

@@ -40,7 +40,7 @@ static void check_verdict(void)
     struct report_verdict judged;
 
     set_plan();
-    judged = report_judge(&report, &plan);
+    judged = report_judge(&report.verdict, &plan.scale);
     tap_check_close(judged.amplitude_um, 1000.0f, 1e-2f, "amplitude: half the range of x, shift included");
     tap_check_close(judged.velocity_mm_s, 500.0f, 1e-3f, "velocity: half the range of v");
     tap_check_close(judged.velocity_mm_s_rms, 62.5f, 1e-4f, "rms velocity");
@@ -54,17 +54,17 @@ static void check_verdict(void)
     tap_check_close(judged.growth_per_s, 135.3803f, 1e-2f, "growth: ln 2 in 8 periods of 640 us");
     tap_check_close(judged.growth_error_per_s, 13.5385f, 1e-2f, "and its error");
     report.verdict.cycle_steps_q15 = UINT64_C(12600) << 15;
-    tap_check_text(report_judge(&report, &plan).band, "groan", "a slower one groans");
-    tap_check(is_nan(report_judge(&report, &plan).level_dba_estimate), "and has no loudness estimate");
+    tap_check_text(report_judge(&report.verdict, &plan.scale).band, "groan", "a slower one groans");
+    tap_check(is_nan(report_judge(&report.verdict, &plan.scale).level_dba_estimate), "and has no loudness estimate");
     report.verdict.cycle_steps_q15 = UINT64_C(126000) << 15;
-    judged = report_judge(&report, &plan);
+    judged = report_judge(&report.verdict, &plan.scale);
     tap_check(!judged.is_audible && judged.band[0] == 'n', "8 Hz is neither audible nor in a band");
     report.verdict.has_growth = false;
-    tap_check(is_nan(report_judge(&report, &plan).growth_per_s), "no growth, no number");
+    tap_check(is_nan(report_judge(&report.verdict, &plan.scale).growth_per_s), "no growth, no number");
     report.verdict.motion = CLASS_REST;
-    tap_check(is_nan(report_judge(&report, &plan).frequency_hz), "rest has no frequency");
+    tap_check(is_nan(report_judge(&report.verdict, &plan.scale).frequency_hz), "rest has no frequency");
     report.verdict.variance = 0u;
-    tap_check(is_nan(report_judge(&report, &plan).level_db), "no motion has no level");
+    tap_check(is_nan(report_judge(&report.verdict, &plan.scale).level_db), "no motion has no level");
 }
 
 static void check_unknown(void)
@@ -73,7 +73,7 @@ static void check_unknown(void)
 
     set_plan();
     report.verdict.propensity = PROPENSITY_UNKNOWN;
-    judged = report_judge(&report, &plan);
+    judged = report_judge(&report.verdict, &plan.scale);
     tap_check(judged.motion == CLASS_UNSETTLED && judged.period == 0u, "before the window is full: unsettled");
     tap_check(is_nan(judged.amplitude_um) && is_nan(judged.velocity_mm_s) && is_nan(judged.velocity_mm_s_rms) &&
                   is_nan(judged.level_db) && is_nan(judged.acceleration_g) && is_nan(judged.frequency_hz) &&

@@ -1,0 +1,50 @@
+/* Studies: a map, borders, a share of squeal. Each asks for one set after the other and has it tried in a plant of its own,
+ * in slices between two polls of the console; the plant in the interrupt goes on undisturbed.
+ *
+ *   study: next set -> trial -> a body line -> next set ... -> answer */
+#ifndef PROTOCOL_STUDY_H
+#define PROTOCOL_STUDY_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "base/text.h"
+#include "sim/scan.h"
+#include "sim/trial.h"
+
+struct console;
+
+enum { STUDY_SLICE_STEPS = 256 }; /* of the trial, between two polls */
+
+/* What the trials of a study came to. */
+struct study_tally {
+    uint32_t trials; /* begun, and those refused */
+    uint32_t by_propensity[4];
+    uint32_t refused; /* sets that the model cannot hold */
+    uint32_t diverged;
+    uint32_t caps, saturations; /* of all trials, as in status */
+    uint64_t steps;
+};
+
+struct study {
+    struct trial trial;
+    struct trial_span span;
+    bool is_trying;
+    struct study_tally tally;
+    struct scan scan;
+    uint32_t point;
+};
+
+/* The command. [MAIN] */
+void study_scan_obey(struct console *console);
+
+/* Goes on with it; returns true if something was done. [MAIN] */
+bool study_scan_continue(struct console *console);
+
+/* Is one under way? [MAIN] */
+bool study_is_under_way(const struct console *console);
+
+/* Ends the study under way with what it has, because a stop waits. [MAIN] */
+void study_cut_short(struct console *console);
+
+#endif
