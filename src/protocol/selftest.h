@@ -9,7 +9,7 @@
 #include "base/text.h"
 #include "sim/sim.h"
 
-enum { SELFTEST_SLICE_STEPS = 256 }; /* at most this many steps of the plant between two polls */
+enum { SELFTEST_SLICE_STEPS = 128 }; /* at most this many steps of the plant a poll */
 
 struct selftest {
     struct sim_plan plan;

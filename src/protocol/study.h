@@ -14,7 +14,8 @@
 
 struct console;
 
-enum { STUDY_SLICE_STEPS = 256 }; /* of the trial, between two polls */
+/* Steps of a trial a poll. The program polls the console twice between two looks at the line: 256. */
+enum { STUDY_SLICE_STEPS = 128 };
 
 /* What the trials of a study came to. */
 struct study_tally {

@@ -26,6 +26,29 @@ static void jump_if_sudden(struct profile *profile)
     }
 }
 
+/* A ramp ends two steps late at most: rounding may make it a step longer than it is. */
+static void set_end(struct profile *profile)
+{
+    const uint64_t start = profile->start;
+
+    profile->last = profile->kind == PROFILE_CONSTANT ? profile->from : profile->to;
+    switch (profile->kind) {
+    case PROFILE_STEP:
+        profile->end = start + 2u;
+        break;
+    case PROFILE_RAMP:
+        profile->end = start + (uint32_t)fmath_min(1.0f / profile->per_step, STEPS_MAX) + 3u;
+        break;
+    case PROFILE_SINE:
+        profile->end = UINT64_MAX;
+        break;
+    case PROFILE_CONSTANT:
+    default:
+        profile->end = 0u;
+        break;
+    }
+}
+
 /* The last value itself where the share is whole: rounded by a bit it would be a change of the load later on. */
 static float between(const struct profile *profile, float share)
 {
@@ -58,6 +81,7 @@ void profile_load(struct profile *profile, const struct params *params, const st
 
         profile->turns_per_step = ((uint64_t)high << 32) | (uint32_t)((scaled - (float)high) * 4294967296.0f);
     }
+    set_end(profile);
 }
 
 void profile_speed(struct profile *profile, const struct params *params, const struct scale *scale)
@@ -69,6 +93,7 @@ void profile_speed(struct profile *profile, const struct params *params, const s
     jump_if_sudden(profile);
     profile->first = profile->start_fraction < 0.5f ? 1.0f : 0.0f;
     profile->second = 1.0f;
+    set_end(profile);
 }
 
 static float ramp_value(const struct profile *profile, uint64_t step)
@@ -124,6 +149,8 @@ void profile_q27_derive(struct profile_q27 *derived, const struct profile *profi
     derived->place = fixed_times_float(1, fmath_max(fmath_min(place, 1.0f), -1.0f), 60);
     derived->per_step = fixed_times_float(1, per_step, 60);
     derived->turns_per_step = profile->turns_per_step;
+    derived->last = fixed_from_float(profile->last, 27);
+    derived->end = profile->end;
 }
 
 /* A share of a value, Q30. */
@@ -179,16 +206,3 @@ int32_t profile_q27_moving_value(const struct profile_q27 *profile, uint64_t ste
     }
 }
 
-bool profile_is_moving(const struct profile *profile, uint64_t step)
-{
-    switch (profile->kind) {
-    case PROFILE_STEP:
-        return step <= profile->start + 1u;
-    case PROFILE_RAMP:
-        return step <= profile->start || ramp_value(profile, step) != profile->to;
-    case PROFILE_CONSTANT:
-    case PROFILE_SINE:
-    default:
-        return false;
-    }
-}

@@ -24,19 +24,21 @@ struct profile {
     float start_fraction;    /* rest of t1, 0 to 1 step */
     float per_step;          /* ramp: 1/(t2 - t1) in steps */
     uint64_t turns_per_step; /* sine: fraction of a turn in 2^-64 */
+    float last;              /* value from the step end on, for good; end is UINT64_MAX where there is none */
+    uint64_t end;
 };
 
 /* Profiles of a checked set. [MAIN] */
 void profile_load(struct profile *profile, const struct params *params, const struct scale *scale);
 void profile_speed(struct profile *profile, const struct params *params, const struct scale *scale);
 
-/* Value of a profile that is not constant. */
+/* Value of a profile before its end. */
 float profile_moving_value(const struct profile *profile, uint64_t step);
 
 /* Value held over the given step. Same bits everywhere. [ISR, pure] */
 static inline float profile_value(const struct profile *profile, uint64_t step)
 {
-    return profile->kind == PROFILE_CONSTANT ? profile->from : profile_moving_value(profile, step);
+    return step >= profile->end ? profile->last : profile_moving_value(profile, step);
 }
 
 /* The same profile in integers: values in Q4.27, a place on the ramp in Q60. */
@@ -49,6 +51,8 @@ struct profile_q27 {
     int64_t place;           /* ramp: of the middle of the step in which it starts; below 0 before it */
     int64_t per_step;        /* ramp: way of one step, 2 for anything faster */
     uint64_t turns_per_step; /* sine: as above */
+    int32_t last;
+    uint64_t end;
 };
 
 /* [MAIN] */
@@ -59,10 +63,13 @@ int32_t profile_q27_moving_value(const struct profile_q27 *profile, uint64_t ste
 /* Value held over the given step. No floating point. [ISR, pure] */
 static inline int32_t profile_q27_value(const struct profile_q27 *profile, uint64_t step)
 {
-    return profile->kind == PROFILE_CONSTANT ? profile->from : profile_q27_moving_value(profile, step);
+    return step >= profile->end ? profile->last : profile_q27_moving_value(profile, step);
 }
 
 /* Does the value still move at this step or later, other than by a sine? [ANY] */
-bool profile_is_moving(const struct profile *profile, uint64_t step);
+static inline bool profile_is_moving(const struct profile *profile, uint64_t step)
+{
+    return profile->kind != PROFILE_SINE && step < profile->end;
+}
 
 #endif

@@ -178,7 +178,7 @@ static uint32_t hash_state(const struct sim *sim)
     return hash_word(hash, (uint32_t)(int32_t)sim->output.mode);
 }
 
-bool sim_step(struct sim *sim)
+bool sim_step_unhashed(struct sim *sim)
 {
     const int32_t v_before = sim->output.v;
     bool has_verdict;
@@ -198,7 +198,16 @@ bool sim_step(struct sim *sim)
     sim->step++;
     has_verdict = detector_push(&sim->detector, &sim->output);
     measure_push(&sim->measure, &sim->output);
-    sim->hash = hash_state(sim);
+    return has_verdict;
+}
+
+bool sim_step(struct sim *sim)
+{
+    const bool has_verdict = sim_step_unhashed(sim);
+
+    if (sim->fault == SIM_FAULT_NONE) {
+        sim->hash = hash_state(sim);
+    }
     return has_verdict;
 }
 

@@ -147,7 +147,7 @@ static void watch_onset(struct trial *trial)
 static bool advance(struct trial *trial)
 {
     struct sim *sim = &trial->sim;
-    const bool has_news = sim_step(sim);
+    const bool has_news = sim_step_unhashed(sim);
 
     watch_onset(trial);
     if (sim->fault != SIM_FAULT_NONE) {
