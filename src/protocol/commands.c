@@ -244,6 +244,7 @@ static void command_verdict(struct console *console)
 }
 
 static void command_scan(struct console *console) { study_scan_obey(console); }
+static void command_margin(struct console *console) { study_margin_obey(console); }
 
 static void command_selftest(struct console *console)
 {

@@ -51,7 +51,8 @@ enum console_task {
     CONSOLE_TASK_STREAM,
     CONSOLE_TASK_DEMO,
     CONSOLE_TASK_SELFTEST,
-    CONSOLE_TASK_SCAN
+    CONSOLE_TASK_SCAN,
+    CONSOLE_TASK_MARGIN
 };
 
 /* Steps under way for a task. */

@@ -48,9 +48,13 @@ bool study_read_count(struct console *console, const char *key, struct token wor
     return true;
 }
 
+bool study_is_span(struct token word)
+{
+    return token_is(word, "transient") || token_is(word, "window") || token_is(word, "whole");
+}
+
 bool study_read_span(struct console *console, struct token word, struct trial_span *span)
 {
-    *span = (struct trial_span){.transient = TRIAL_TRANSIENT_DEFAULT, .window = TRIAL_WINDOW_DEFAULT};
     for (; word.length != 0u; word = token_next(word)) {
         if (token_is(word, "whole")) {
             span->is_whole = true;
@@ -141,7 +145,10 @@ void study_write_tally(struct text *text, const struct study_tally *tally)
     text_key_u64(text, "steps", tally->steps);
 }
 
-bool study_is_under_way(const struct console *console) { return console->task == CONSOLE_TASK_SCAN; }
+bool study_is_under_way(const struct console *console)
+{
+    return console->task == CONSOLE_TASK_SCAN || console->task == CONSOLE_TASK_MARGIN;
+}
 
 void study_cut_short(struct console *console)
 {

@@ -9,6 +9,7 @@
 #include <stdint.h>
 
 #include "base/text.h"
+#include "sim/margin.h"
 #include "sim/scan.h"
 #include "sim/trial.h"
 
@@ -27,20 +28,38 @@ struct study_tally {
     uint64_t steps;
 };
 
+struct study_scan {
+    struct scan scan;
+    uint32_t point; /* to be tried */
+};
+
+struct study_margin {
+    struct params base;
+    const struct params_info *only; /* NULL: one after the other */
+    float factor;
+    bool has_base, is_loud; /* the base was tried, and what it said */
+    struct margin margin;   /* of the parameter under way */
+    bool is_searching;      /* it waits for the trial of wanted */
+    struct params wanted;
+    uint32_t done, of; /* parameters */
+};
+
 struct study {
     struct trial trial;
     struct trial_span span;
     bool is_trying;
     struct study_tally tally;
-    struct scan scan;
-    uint32_t point;
+    struct study_scan scan;
+    struct study_margin margin;
 };
 
-/* The command. [MAIN] */
+/* The commands. [MAIN] */
 void study_scan_obey(struct console *console);
+void study_margin_obey(struct console *console);
 
-/* Goes on with it; returns true if something was done. [MAIN] */
+/* Each goes on with its own; true if something was done. [MAIN] */
 bool study_scan_continue(struct console *console);
+bool study_margin_continue(struct console *console);
 
 /* Is one under way? [MAIN] */
 bool study_is_under_way(const struct console *console);

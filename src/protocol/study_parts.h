@@ -15,7 +15,11 @@ bool study_read_value(struct console *console, const struct params_info *info, s
 bool study_read_count(struct console *console, const char *key, struct token word, uint32_t low, uint32_t high,
                       uint32_t *count);
 
-/* Reads what is left of the line: "transient <periods>", "window <periods>", "whole" in any order. False if something else
+/* Does one of the words that say how long to look stand here? */
+bool study_is_span(struct token word);
+
+/* Reads what is left of the line: "transient <periods>", "window <periods>", "whole" in any order, into
+ * a span that holds the defaults. False if something else
  * is there, and that has been answered. */
 bool study_read_span(struct console *console, struct token word, struct trial_span *span);
 

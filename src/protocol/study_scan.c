@@ -34,21 +34,16 @@ static bool read_axis(struct console *console, struct token *word, struct scan_a
     return true;
 }
 
-static bool is_option(struct token word)
-{
-    return word.length == 0u || token_is(word, "transient") || token_is(word, "window") || token_is(word, "whole");
-}
-
 void study_scan_obey(struct console *console)
 {
     struct token word = token_first(console->arguments);
-    struct trial_span span;
+    struct trial_span span = {.transient = TRIAL_TRANSIENT_DEFAULT, .window = TRIAL_WINDOW_DEFAULT};
     struct scan scan = {.base = *executive_params(console->executive), .axis_count = 1u};
 
     if (!read_axis(console, &word, &scan.axes[0])) {
         return;
     }
-    if (!is_option(word)) {
+    if (word.length != 0u && !study_is_span(word)) {
         scan.axis_count = 2u;
         if (!read_axis(console, &word, &scan.axes[1])) {
             return;
@@ -61,24 +56,25 @@ void study_scan_obey(struct console *console)
     if (!study_read_span(console, word, &span)) {
         return;
     }
-    console->study.scan = scan;
+    console->study.scan.scan = scan;
     console->study.span = span;
-    console->study.point = 0u;
+    console->study.scan.point = 0u;
     study_start(console, CONSOLE_TASK_SCAN);
 }
 
 static void write_point(struct console *console, const struct params_problem *problem, const struct params *params)
 {
     const struct study *study = &console->study;
-    const struct scan *scan = &study->scan;
+    const struct scan *scan = &study->scan.scan;
+    const uint32_t point = study->scan.point;
     struct text *text = console->text;
 
     console_begin_body(console);
     text_write(text, "point");
-    text_key_u64(text, "done", study->point + 1u);
+    text_key_u64(text, "done", point + 1u);
     text_key_u64(text, "of", scan_points(scan));
-    text_key_u64(text, "i", scan_place(scan, study->point, 0u));
-    text_key_u64(text, "j", scan_place(scan, study->point, 1u));
+    text_key_u64(text, "i", scan_place(scan, point, 0u));
+    text_key_u64(text, "j", scan_place(scan, point, 1u));
     for (uint32_t i = 0u; i < scan->axis_count; i++) {
         text_key_text(text, scan->axes[i].info->symbol, "");
         values_write(text, scan->axes[i].info, params_value(params, scan->axes[i].info));
@@ -93,19 +89,19 @@ static void write_point(struct console *console, const struct params_problem *pr
 
 bool study_scan_continue(struct console *console)
 {
-    struct study *study = &console->study;
+    struct study_scan *scan = &console->study.scan;
     struct params_problem problem;
     struct params params;
 
-    scan_params(&study->scan, study->point, &params);
-    if (!study_try(study, &params, &problem)) {
+    scan_params(&scan->scan, scan->point, &params);
+    if (!study_try(&console->study, &params, &problem)) {
         return true;
     }
     write_point(console, &problem, &params);
-    study->point++;
-    if (study->point == scan_points(&study->scan)) {
+    scan->point++;
+    if (scan->point == scan_points(&scan->scan)) {
         console_begin_ok(console);
-        study_write_tally(console->text, &study->tally);
+        study_write_tally(console->text, &console->study.tally);
         console_end(console);
         console_end_task(console);
     }

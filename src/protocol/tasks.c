@@ -211,6 +211,7 @@ static bool ends_early(struct console *console)
     case CONSOLE_TASK_DEMO:
     case CONSOLE_TASK_SELFTEST:
     case CONSOLE_TASK_SCAN:
+    case CONSOLE_TASK_MARGIN:
         return console->stops_waiting > 0u;
     case CONSOLE_TASK_NONE:
     case CONSOLE_TASK_SETTING:
@@ -258,6 +259,8 @@ bool console_task_continue(struct console *console)
         return continue_selftest(console);
     case CONSOLE_TASK_SCAN:
         return study_scan_continue(console);
+    case CONSOLE_TASK_MARGIN:
+        return study_margin_continue(console);
     case CONSOLE_TASK_NONE:
     case CONSOLE_TASK_STOP:
     default:

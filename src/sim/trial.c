@@ -7,6 +7,7 @@ enum {
     FRAMES_SURE = 2,   /* that must promise the same end */
     SETTLED_LEAST = 2, /* frames after which nothing of a moving profile is left in a second difference */
     LINE_LEAST = 6,    /* frames without which a line proves nothing */
+    LINE_BRIEF = 16,   /* frames that may end a brief trial */
     LINE_UNIT = 256,   /* from Q16 to Q8: the squares of many frames fit 64 bits */
     LINE_MAX = 1 << 16 /* frames; more change nothing */
 };
@@ -36,6 +37,7 @@ struct params_problem trial_begin(struct trial *trial, const struct params *para
     trial->sure = 0u;
     trial->settled = 0u;
     trial->is_measuring = false;
+    trial->is_over = false;
     trial->line = (struct trial_line){0};
     trial->has_event = false;
     trial->has_flag = false;
@@ -110,6 +112,19 @@ static void open_window(struct trial *trial, enum trial_end end)
     sim_measure(&trial->sim, steps);
 }
 
+/* The line says by now whether the motion grows. */
+static void end_if_growth_is_sure(struct trial *trial)
+{
+    float growth;
+    float error;
+
+    if (slips_on(trial) && trial->line.count >= LINE_BRIEF && trial_growth(trial, &growth, &error) &&
+        fmath_abs(growth) > error) {
+        trial->end = growth > 0.0f ? TRIAL_GREW : TRIAL_DECAYED;
+        trial->is_over = true;
+    }
+}
+
 /* A frame has its verdict and its class. */
 static void take_frame(struct trial *trial)
 {
@@ -117,6 +132,9 @@ static void take_frame(struct trial *trial)
 
     trial->settled = is_settled(trial) ? trial->settled + 1u : 0u;
     book_growth(trial);
+    if (trial->span.is_brief && !trial->is_measuring) {
+        end_if_growth_is_sure(trial);
+    }
     trial->sure = promised == trial->promised ? trial->sure + 1u : 1u;
     trial->promised = promised;
     if (promised != TRIAL_RUNS && trial->sure >= FRAMES_SURE && !trial->span.is_whole && !trial->is_measuring) {
@@ -143,8 +161,7 @@ static void watch_onset(struct trial *trial)
     trial->event_step = sim->step;
 }
 
-/* One step; false when the trial is over. */
-static bool advance(struct trial *trial)
+static void advance(struct trial *trial)
 {
     struct sim *sim = &trial->sim;
     const bool has_news = sim_step_unhashed(sim);
@@ -152,29 +169,28 @@ static bool advance(struct trial *trial)
     watch_onset(trial);
     if (sim->fault != SIM_FAULT_NONE) {
         trial->end = TRIAL_DIVERGED;
-        return false;
+        trial->is_over = true;
+        return;
     }
     if (has_news && sim->detector.search.stage == STAGE_IDLE) {
         take_frame(trial);
     }
     if (sim->step < trial->until) {
-        return true;
+        return;
     }
     if (trial->is_measuring) {
-        return false;
+        trial->is_over = true;
+    } else {
+        open_window(trial, TRIAL_WAS_WHOLE);
     }
-    open_window(trial, TRIAL_WAS_WHOLE);
-    return true;
 }
 
 bool trial_go_on(struct trial *trial, uint32_t steps)
 {
-    for (uint32_t i = 0u; i < steps; i++) {
-        if (!advance(trial)) {
-            return true;
-        }
+    for (uint32_t i = 0u; i < steps && !trial->is_over; i++) {
+        advance(trial);
     }
-    return false;
+    return trial->is_over;
 }
 
 float trial_periods(const struct trial *trial)
@@ -208,9 +224,20 @@ bool trial_growth(const struct trial *trial, float *growth, float *error)
     return true;
 }
 
+bool trial_is_loud(const struct trial *trial)
+{
+    float growth;
+    float error;
+
+    if (trial->end == TRIAL_GREW || trial->sim.detector.verdict.propensity == PROPENSITY_SQUEAL) {
+        return true;
+    }
+    return trial->end == TRIAL_WAS_WHOLE && slips_on(trial) && trial_growth(trial, &growth, &error) && growth > 0.0f;
+}
+
 const char *trial_end_name(uint8_t end)
 {
-    static const char *const names[] = {"running", "whole", "squealed", "decayed", "diverged"};
+    static const char *const names[] = {"running", "whole", "squealed", "decayed", "diverged", "grew"};
 
     return end < sizeof names / sizeof names[0] ? names[end] : "?";
 }

@@ -5,7 +5,10 @@
  *
  * The transient is cut short in three cases only. The plant left its domain: there is no window then. It squeals in a
  * motion that repeats, found twice in a row after the profiles have come to rest. Or what is free in its motion decays, in
- * two frames in a row, and the closed form says that it must. A sine of the load is never at rest. */
+ * two frames in a row, and the closed form says that it must. A sine of the load is never at rest.
+ *
+ * Who looks for a border only wants to know on which side a set lies: with is_brief a trial is over, without a window, as
+ * soon as the growth of the free motion is known beyond its error. */
 #ifndef SIM_TRIAL_H
 #define SIM_TRIAL_H
 
@@ -26,10 +29,11 @@ enum {
 struct trial_span {
     uint32_t transient, window;
     bool is_whole; /* never cut the transient short */
+    bool is_brief; /* over as soon as growth or decay is certain */
 };
 
 /* Why the window was opened, or not. */
-enum trial_end { TRIAL_RUNS, TRIAL_WAS_WHOLE, TRIAL_SQUEALED, TRIAL_DECAYED, TRIAL_DIVERGED };
+enum trial_end { TRIAL_RUNS, TRIAL_WAS_WHOLE, TRIAL_SQUEALED, TRIAL_DECAYED, TRIAL_DIVERGED, TRIAL_GREW };
 
 /* Growth of the free part of the motion while the pad slips on: a straight line through the logarithms of its amplitude,
  * one a frame. */
@@ -49,6 +53,7 @@ struct trial {
     uint32_t settled;  /* frames since the profiles came to rest */
     uint64_t until;    /* step at which the present part ends */
     bool is_measuring; /* the window is open */
+    bool is_over;
     struct trial_line line;
 
     /* onset: the first change of regime after a pause, and the first verdict of squeal */
@@ -70,6 +75,10 @@ float trial_periods(const struct trial *trial);
 /* Growth of the free motion in e-folds per normal period over the whole trial, and the error that noise leaves in it (three
  * standard deviations); false if too few frames showed any. [MAIN] */
 bool trial_growth(const struct trial *trial, float *growth, float *error);
+
+/* Does the set squeal, or will it: by the verdict, or where that is not squeal yet, by the sign of the growth? Of a trial that
+ * is over. [MAIN] */
+bool trial_is_loud(const struct trial *trial);
 
 /* The word of the protocol for enum trial_end. [MAIN] */
 const char *trial_end_name(uint8_t end);
