@@ -60,8 +60,8 @@ static float natural_unit(const struct params *params, const struct params_info 
     return IS(friction_slope_s_per_m) ? impedance / load : 1.0f;
 }
 
-/* Value of a rung; false if there is none. From a value: by ratios that square, away to the factor or in to its inverse and
- * then to 0. From 0: by powers of two up from a thousandth of the natural unit. */
+/* Value of a rung; false if there is none. From a value: by ratios that square, away to the factor or in to its inverse. From
+ * 0: by powers of two up from a thousandth of the natural unit. */
 static bool rung_value(const struct margin *margin, float *value)
 {
     const float sign = margin->side == ABOVE ? 1.0f : -1.0f;
@@ -74,14 +74,8 @@ static bool rung_value(const struct margin *margin, float *value)
         *value = sign * natural_unit(&margin->base, margin->info) * fmath_exp2((float)margin->rung - 11.0f);
         return margin->rung <= RUNGS_FROM_NOTHING;
     }
-    if (before < widest) {
-        const float reach = fmath_min(exponent, widest);
-
-        *value = margin->value * fmath_exp2(is_outward ? reach : -reach);
-        return true;
-    }
-    *value = 0.0f;
-    return !is_outward && margin->sides[margin->side].searched != 0.0f;
+    *value = margin->value * fmath_exp2(is_outward ? fmath_min(exponent, widest) : -fmath_min(exponent, widest));
+    return before < widest;
 }
 
 static void begin_side(struct margin *margin, uint8_t side)
@@ -182,6 +176,14 @@ void margin_take(struct margin *margin, enum margin_answer answer)
     }
 }
 
+/* How far the border of a side is: by ratio, or from 0 by difference. */
+static float distance(const struct margin *margin, uint8_t side)
+{
+    const float border = margin_border(&margin->sides[side]);
+
+    return margin->value == 0.0f ? fmath_abs(border) : fmath_abs(fmath_log2(border / margin->value));
+}
+
 /* The nearer border of the two; DONE if there is none. */
 static uint8_t nearest(const struct margin *margin)
 {
@@ -189,7 +191,7 @@ static uint8_t nearest(const struct margin *margin)
     const struct margin_side *above = &margin->sides[ABOVE];
 
     if (below->has_border && above->has_border) {
-        return margin->value - margin_border(below) <= margin_border(above) - margin->value ? BELOW : ABOVE;
+        return distance(margin, BELOW) <= distance(margin, ABOVE) ? BELOW : ABOVE;
     }
     if (!below->has_border && !above->has_border) {
         return DONE;

@@ -8,7 +8,7 @@ enum {
     SETTLED_LEAST = 2, /* frames after which nothing of a moving profile is left in a second difference */
     LINE_LEAST = 6,    /* frames without which a line proves nothing */
     LINE_BRIEF = 16,   /* frames that may end a brief trial */
-    LINE_UNIT = 256,   /* from Q16 to Q8: the squares of many frames fit 64 bits */
+    LINE_UNIT = 16,    /* from Q16 to Q12: the squares of many frames fit 64 bits */
     LINE_MAX = 1 << 16 /* frames; more change nothing */
 };
 
@@ -206,7 +206,7 @@ static float from_i64(int64_t value)
 bool trial_growth(const struct trial *trial, float *growth, float *error)
 {
     const struct trial_line *line = &trial->line;
-    const float to_period = LN2 / 256.0f / (float)DETECTOR_FRAME_PERIODS;
+    const float to_period = LN2 / 4096.0f / (float)DETECTOR_FRAME_PERIODS;
     const float count = (float)line->count;
     const float spread =
         count * (count * count - 1.0f) / 12.0f; /* of the places about their mean, squared and summed */
@@ -229,10 +229,11 @@ bool trial_is_loud(const struct trial *trial)
     float growth;
     float error;
 
-    if (trial->end == TRIAL_GREW || trial->sim.detector.verdict.propensity == PROPENSITY_SQUEAL) {
-        return true;
+    if (trial->end == TRIAL_GREW || trial->end == TRIAL_DECAYED) {
+        return trial->end == TRIAL_GREW;
     }
-    return trial->end == TRIAL_WAS_WHOLE && slips_on(trial) && trial_growth(trial, &growth, &error) && growth > 0.0f;
+    return trial->sim.detector.verdict.propensity == PROPENSITY_SQUEAL ||
+           (slips_on(trial) && trial_growth(trial, &growth, &error) && growth > 0.0f);
 }
 
 const char *trial_end_name(uint8_t end)
