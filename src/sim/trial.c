@@ -41,6 +41,7 @@ struct params_problem trial_begin(struct trial *trial, const struct params *para
     trial->line = (struct trial_line){0};
     trial->has_event = false;
     trial->has_flag = false;
+    trial->has_onset = false;
     trial->onset_step = 0u;
     trial->until = periods_to_steps(trial, span->transient);
     return problem;
@@ -150,6 +151,7 @@ static void watch_onset(struct trial *trial)
     if (!trial->has_flag && sim->detector.verdict.propensity == PROPENSITY_SQUEAL) {
         trial->has_flag = true;
         trial->flag_step = sim->step;
+        trial->has_onset = !slips_on(trial);
     }
     if (sim->output.events == 0u) {
         return;

@@ -59,8 +59,9 @@ struct trial {
     /* onset: the first change of regime after a pause, and the first verdict of squeal */
     bool has_event, has_flag;
     uint64_t event_step; /* last change of regime */
-    uint64_t onset_step; /* before the flag: the last onset; after it: the one that led to it */
     uint64_t flag_step;
+    bool has_onset;      /* the pad stuck or crossed before it was flagged, without a pause since */
+    uint64_t onset_step; /* when it began to, if so */
 };
 
 /* Starts a trial of a set. On a problem there is none. [MAIN] */
