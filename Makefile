@@ -52,7 +52,7 @@ $(shell mkdir -p build && echo '$(BUILD_ID)' >build/build_id)
 endif
 
 # --- Rules ----------------------------------------------------------------------------------------------------------
-.PHONY: all run monitor test golden oracle debug check size clean help setup host-image
+.PHONY: all run monitor test golden oracle noise debug check size clean help setup host-image
 .DELETE_ON_ERROR:
 
 all: $(IMAGE) ## build the firmware for BOARD (default mps2-an386)
@@ -125,6 +125,9 @@ golden: $(IMAGE) $(TOOL) ## run the cases of CASES= into OUT= (ARITH= SPP= NORMA
 
 oracle: $(ORACLE) ## make golden rows for any parameters: the cases of CASES= into OUT=, by the reference solver
 	$(Q)$(ORACLE) --cases $(CASES) --out $(OUT) --jobs 2
+
+noise: host-image ## measure how much roughness starts squeal from rest, and how much a stable brake bears
+	$(Q)tools/starting_noise build/host/squeal
 
 test: $(IMAGE) $(UNIT_IMAGE) $(PROBE) $(UNIT_HOST) $(TOOL) $(ORACLE) host-image ## run everything that a change must pass
 	$(Q)BOARD=$(BOARD) BOARD_RUN="$(BOARD_RUN)" IMAGE=$(IMAGE) UNIT_IMAGE=$(UNIT_IMAGE) PROBE=$(PROBE) \

@@ -17,11 +17,12 @@
 #include "model/params.h"
 
 /* Limits of what the scaled model holds; MODEL.md has the reasons. */
-#define SCALE_STEP_MAX 0.40f      /* largest z = h max(1, Z, C, Cn) */
-#define SCALE_STIFFNESS_MAX 15.0f /* largest Z2 */
-#define SCALE_FRICTION_MAX 8.0f   /* largest mu and |eps| */
-#define SCALE_RESERVE 4.0f        /* headroom for live changes where N_max or v_max is not given */
-#define SCALE_FAULT_SPEED 10.0f   /* the plant has left its domain beyond this multiple of max(|v0|, Vref) */
+#define SCALE_STEP_MAX 0.40f            /* largest z = h max(1, Z, C, Cn) */
+#define SCALE_STIFFNESS_MAX 15.0f       /* largest Z2 */
+#define SCALE_FRICTION_MAX 8.0f         /* largest mu and |eps| */
+#define SCALE_RESERVE 4.0f              /* headroom for live changes where N_max or v_max is not given */
+#define SCALE_ROUGHNESS_PEAK 1.7320508f /* largest over rms of a uniform distribution: sqrt 3 */
+#define SCALE_FAULT_SPEED 10.0f         /* the plant has left its domain beyond this multiple of max(|v0|, Vref) */
 
 struct scale {
     /* one unit of the model in SI */
@@ -56,7 +57,7 @@ struct params_problem scale_derive(const struct params *params, const struct sca
 /* Steps per normal period of a set, 16 ... 1024. [ANY] */
 uint32_t scale_steps_per_period(const struct params *params);
 
-/* Largest brake force and disc speed that the set's profiles reach, N and m/s. [MAIN] */
+/* Largest brake force and disc speed that the set reaches, N and m/s; the force with its roughness and run-out. [MAIN] */
 float scale_load_peak_n(const struct params *params);
 float scale_speed_peak_m_per_s(const struct params *params);
 

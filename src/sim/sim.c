@@ -40,6 +40,7 @@ struct params_problem sim_plan_make(struct sim_plan *plan, const struct params *
     profile_speed(&plan->speed, params, &plan->scale);
     profile_q27_derive(&plan->load_q27, &plan->load);
     profile_q27_derive(&plan->speed_q27, &plan->speed);
+    texture_derive(&plan->texture, params, &plan->scale);
     plan->detector = detector_config(params, &plan->scale);
     plan->prediction = predictor_predict(params, &plan->scale);
     return problem;
@@ -47,14 +48,30 @@ struct params_problem sim_plan_make(struct sim_plan *plan, const struct params *
 
 /* --- The two arithmetics ------------------------------------------------------------------------------------------ */
 
-static struct step_f32_input input_f32(const struct sim_plan *plan, uint64_t step)
+/* Load and speed held over the step to come. */
+static struct step_f32_input input_f32(const struct sim *sim)
 {
-    return (struct step_f32_input){profile_value(&plan->load, step), profile_value(&plan->speed, step)};
+    const struct sim_plan *plan = sim->plan;
+    struct step_f32_input input = {profile_value(&plan->load, sim->step), profile_value(&plan->speed, sim->step)};
+
+    if (plan->texture.is_active) {
+        const int32_t disc = fixed_from_float(input.speed, PLANT_FRACTION_BITS);
+
+        input.load = texture_load_f32(input.load, texture_value(&plan->texture, &sim->angle, sim->step, disc));
+    }
+    return input;
 }
 
-static struct step_q27_input input_q27(const struct sim_plan *plan, uint64_t step)
+static struct step_q27_input input_q27(const struct sim *sim)
 {
-    return (struct step_q27_input){profile_q27_value(&plan->load_q27, step), profile_q27_value(&plan->speed_q27, step)};
+    const struct sim_plan *plan = sim->plan;
+    struct step_q27_input input = {profile_q27_value(&plan->load_q27, sim->step),
+                                   profile_q27_value(&plan->speed_q27, sim->step)};
+
+    if (plan->texture.is_active) {
+        input.load = texture_load_q27(input.load, texture_value(&plan->texture, &sim->angle, sim->step, input.speed));
+    }
+    return input;
 }
 
 static void reset_plant(struct sim *sim)
@@ -62,10 +79,10 @@ static void reset_plant(struct sim *sim)
     const struct sim_plan *plan = sim->plan;
 
     if (plan->arithmetic == ARITH_Q27) {
-        step_q27_reset(&sim->q27, &plan->q27, &plan->params, &plan->scale, input_q27(plan, 0u));
+        step_q27_reset(&sim->q27, &plan->q27, &plan->params, &plan->scale, input_q27(sim));
         step_q27_report(&sim->q27, &sim->output);
     } else {
-        step_f32_reset(&sim->f32, &plan->f32, &plan->params, &plan->scale, input_f32(plan, 0u));
+        step_f32_reset(&sim->f32, &plan->f32, &plan->params, &plan->scale, input_f32(sim));
         step_f32_report(&sim->f32, &plan->f32, &sim->output);
     }
 }
@@ -83,10 +100,10 @@ static bool advance_plant(struct sim *sim)
     const struct sim_plan *plan = sim->plan;
 
     if (plan->arithmetic == ARITH_Q27) {
-        step_q27_advance(&sim->q27, &plan->q27, input_q27(plan, sim->step), &sim->output);
+        step_q27_advance(&sim->q27, &plan->q27, input_q27(sim), &sim->output);
         return !step_q27_is_outside(&sim->q27);
     }
-    step_f32_advance(&sim->f32, &plan->f32, input_f32(plan, sim->step), &sim->output);
+    step_f32_advance(&sim->f32, &plan->f32, input_f32(sim), &sim->output);
     return !may_be_outside(&sim->output) || !step_f32_is_outside(&sim->f32);
 }
 
@@ -130,6 +147,7 @@ void sim_reset(struct sim *sim, const struct sim_plan *plan)
     sim->has_v10 = false;
     sim->counters = (struct sim_counters){0};
     sim->measure = (struct measure){0};
+    sim->angle = (struct texture_angle){0};
     reset_plant(sim);
     detector_reset(&sim->detector, &plan->detector, &sim->output);
 }
@@ -196,6 +214,9 @@ bool sim_step_unhashed(struct sim *sim)
         return true;
     }
     sim->step++;
+    if (sim->plan->texture.runout != 0) {
+        texture_turn(&sim->plan->texture, &sim->angle, sim->output.disc);
+    }
     has_verdict = detector_push(&sim->detector, &sim->output);
     measure_push(&sim->measure, &sim->output);
     return has_verdict;

@@ -15,6 +15,7 @@
 #include "sim/measure.h"
 #include "sim/profile.h"
 #include "sim/sample.h"
+#include "sim/texture.h"
 
 /* A set with everything derived from it, made in main and handed to the interrupt as a whole. */
 struct sim_plan {
@@ -25,6 +26,7 @@ struct sim_plan {
     struct step_q27_coeffs q27;
     struct profile load, speed;
     struct profile_q27 load_q27, speed_q27;
+    struct texture texture;
     struct detector_config detector;
     struct prediction prediction;
 };
@@ -48,11 +50,12 @@ struct sim {
     struct step_f32 f32; /* one of the two, as the plan says */
     struct step_q27 q27;
     struct plant_output output;
+    struct texture_angle angle; /* of the disc; counted from reset, while there is run-out */
     struct detector detector;
     struct measure measure;
     struct sim_counters counters;
     uint64_t step;
-    uint32_t hash; /* of every state since reset */
+    uint32_t hash; /* of every state since reset, but the disc's angle: what that does is in y one step later */
     enum sim_fault fault;
     bool has_v10; /* |v| has passed ten times the disc's speed: first time, in steps and 2^-15 steps */
     uint64_t v10_step;

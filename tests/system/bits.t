@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
-"""The same bits on the host and on the board, in both arithmetics: a million steps with events, load and parameter changes,
-every state hashed, for 1, 7 and 64 steps a tick and across stops. Then what main sees of a running plant is never torn."""
+"""The same bits on the host and on the board, in both arithmetics: more than a million steps with events, load, surface and
+parameter changes, every state hashed, for 1, 7 and 64 steps a tick and across stops. Then what main sees of a running
+plant is never torn."""
 import os
 import sys
 
@@ -23,6 +24,8 @@ SCRIPT = [
     ("set contact lift load step N0 3 N1 1 t1 32.7 normal exact", 100000),
     ("defaults", 1),
     ("set load sine N0 3 N1 1 fN 0.1743 contact no_pull speed ramp v0 1 v1 -1 tv1 20 tv2 400", 100000),
+    ("set rough 0.02 runout 0.3 R 0.7 seed 5", 40000),
+    ("set speed constant v0 -0.4 seed 16777215 cn 0.02 spp 128", 60000),
 ]
 
 

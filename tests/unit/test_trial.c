@@ -112,7 +112,7 @@ void test_trial(void)
     check_ends();
     check_refusal();
     check_slices();
-    check_growth("");
-    check_growth("arith q27");
+    check_growth("rough 0 runout 0");
+    check_growth("arith q27 rough 0 runout 0");
     check_onset();
 }
