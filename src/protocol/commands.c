@@ -245,6 +245,7 @@ static void command_verdict(struct console *console)
 
 static void command_scan(struct console *console) { study_scan_obey(console); }
 static void command_margin(struct console *console) { study_margin_obey(console); }
+static void command_occurrence(struct console *console) { study_occurrence_obey(console); }
 
 static void command_selftest(struct console *console)
 {

@@ -52,7 +52,8 @@ enum console_task {
     CONSOLE_TASK_DEMO,
     CONSOLE_TASK_SELFTEST,
     CONSOLE_TASK_SCAN,
-    CONSOLE_TASK_MARGIN
+    CONSOLE_TASK_MARGIN,
+    CONSOLE_TASK_OCCURRENCE
 };
 
 /* Steps under way for a task. */

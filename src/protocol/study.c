@@ -88,6 +88,7 @@ static void book_trial(struct study_tally *tally, const struct trial *trial)
     const struct sim *sim = &trial->sim;
 
     tally->by_propensity[sim->detector.verdict.propensity]++;
+    tally->loud += trial_is_loud(trial) ? 1u : 0u;
     tally->diverged += trial->end == TRIAL_DIVERGED ? 1u : 0u;
     tally->caps += sim->counters.caps;
     tally->saturations += sim->counters.saturations;
@@ -114,7 +115,7 @@ bool study_try(struct study *study, const struct params *params, struct params_p
     return true;
 }
 
-void study_write_trial(struct text *text, const struct trial *trial)
+static void write_trial(struct text *text, const struct trial *trial)
 {
     const struct report_motion motion = report_motion(&trial->sim.measure, &trial->plan.scale);
     const struct report_verdict judged = report_judge(&trial->sim.detector.verdict, &trial->plan.scale);
@@ -132,12 +133,22 @@ void study_write_trial(struct text *text, const struct trial *trial)
     report_field(text, "periods", trial_periods(trial));
 }
 
+void study_write_outcome(struct text *text, const struct trial *trial, const struct params_problem *problem)
+{
+    if (problem->error == ERROR_OK) {
+        write_trial(text, trial);
+    } else {
+        text_key_text(text, "error", error_name(problem->error));
+    }
+}
+
 void study_write_tally(struct text *text, const struct study_tally *tally)
 {
     text_key_u64(text, "trials", tally->trials);
     for (uint8_t i = 0u; i < 4u; i++) {
         text_key_u64(text, detector_propensity_name(i), tally->by_propensity[i]);
     }
+    text_key_u64(text, "loud", tally->loud);
     text_key_u64(text, "refused", tally->refused);
     text_key_u64(text, "diverged", tally->diverged);
     text_key_u64(text, "caps", tally->caps);
@@ -147,7 +158,8 @@ void study_write_tally(struct text *text, const struct study_tally *tally)
 
 bool study_is_under_way(const struct console *console)
 {
-    return console->task == CONSOLE_TASK_SCAN || console->task == CONSOLE_TASK_MARGIN;
+    return console->task == CONSOLE_TASK_SCAN || console->task == CONSOLE_TASK_MARGIN ||
+           console->task == CONSOLE_TASK_OCCURRENCE;
 }
 
 void study_cut_short(struct console *console)

@@ -10,6 +10,7 @@
 
 #include "base/text.h"
 #include "sim/margin.h"
+#include "sim/occurrence.h"
 #include "sim/scan.h"
 #include "sim/trial.h"
 
@@ -22,6 +23,7 @@ enum { STUDY_SLICE_STEPS = 128 };
 struct study_tally {
     uint32_t trials; /* begun, and those refused */
     uint32_t by_propensity[4];
+    uint32_t loud; /* squeals, or surely will: trial_is_loud() */
     uint32_t refused; /* sets that the model cannot hold */
     uint32_t diverged;
     uint32_t caps, saturations; /* of all trials, as in status */
@@ -44,6 +46,12 @@ struct study_margin {
     uint32_t done, of; /* parameters */
 };
 
+struct study_occurrence {
+    struct occurrence occurrence;
+    uint32_t done, of; /* trials */
+    uint32_t clamped;
+};
+
 struct study {
     struct trial trial;
     struct trial_span span;
@@ -51,15 +59,18 @@ struct study {
     struct study_tally tally;
     struct study_scan scan;
     struct study_margin margin;
+    struct study_occurrence occurrence;
 };
 
 /* The commands. [MAIN] */
 void study_scan_obey(struct console *console);
 void study_margin_obey(struct console *console);
+void study_occurrence_obey(struct console *console);
 
 /* Each goes on with its own; true if something was done. [MAIN] */
 bool study_scan_continue(struct console *console);
 bool study_margin_continue(struct console *console);
+bool study_occurrence_continue(struct console *console);
 
 /* Is one under way? [MAIN] */
 bool study_is_under_way(const struct console *console);

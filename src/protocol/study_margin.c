@@ -62,7 +62,7 @@ void study_margin_obey(struct console *console)
 {
     struct token word = token_first(console->arguments);
     struct study_margin study = {.base = *executive_params(console->executive), .factor = MARGIN_FACTOR_DEFAULT};
-    struct trial_span span = {.transient = MARGIN_TRANSIENT_DEFAULT, .window = TRIAL_WINDOW_DEFAULT, .is_brief = true};
+    struct trial_span span = {.transient = TRIAL_TRANSIENT_BRIEF, .window = TRIAL_WINDOW_DEFAULT, .is_brief = true};
 
     if (!read_parameter(console, &word, &study.only)) {
         return;

@@ -29,8 +29,8 @@ void study_start(struct console *console, enum console_task task);
 /* Goes on with the trial of a set, one slice; true when it is over. *problem tells why it could not be begun. */
 bool study_try(struct study *study, const struct params *params, struct params_problem *problem);
 
-/* Fields " key=value": of the trial that is over, and of the tally. */
-void study_write_trial(struct text *text, const struct trial *trial);
+/* Fields " key=value": of a trial that is over or was refused, and of the tally. */
+void study_write_outcome(struct text *text, const struct trial *trial, const struct params_problem *problem);
 void study_write_tally(struct text *text, const struct study_tally *tally);
 
 #endif

@@ -79,11 +79,7 @@ static void write_point(struct console *console, const struct params_problem *pr
         text_key_text(text, scan->axes[i].info->symbol, "");
         values_write(text, scan->axes[i].info, params_value(params, scan->axes[i].info));
     }
-    if (problem->error == ERROR_OK) {
-        study_write_trial(text, &study->trial);
-    } else {
-        text_key_text(text, "error", error_name(problem->error));
-    }
+    study_write_outcome(text, &study->trial, problem);
     console_end(console);
 }
 

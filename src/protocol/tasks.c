@@ -212,6 +212,7 @@ static bool ends_early(struct console *console)
     case CONSOLE_TASK_SELFTEST:
     case CONSOLE_TASK_SCAN:
     case CONSOLE_TASK_MARGIN:
+    case CONSOLE_TASK_OCCURRENCE:
         return console->stops_waiting > 0u;
     case CONSOLE_TASK_NONE:
     case CONSOLE_TASK_SETTING:
@@ -261,6 +262,8 @@ bool console_task_continue(struct console *console)
         return study_scan_continue(console);
     case CONSOLE_TASK_MARGIN:
         return study_margin_continue(console);
+    case CONSOLE_TASK_OCCURRENCE:
+        return study_occurrence_continue(console);
     case CONSOLE_TASK_NONE:
     case CONSOLE_TASK_STOP:
     default:

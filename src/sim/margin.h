@@ -16,8 +16,6 @@
 #define MARGIN_WIDTH 1e-3f          /* of a bracket, relative */
 #define MARGIN_FACTOR_DEFAULT 16.0f /* how far to look: from value/16 to 16 value */
 
-enum { MARGIN_TRANSIENT_DEFAULT = 1600 /* normal periods of a trial that cannot decide */ };
-
 enum margin_answer { MARGIN_QUIET, MARGIN_LOUD, MARGIN_REFUSED };
 
 /* Which way to turn the parameter for less squeal; ANY: no border was seen and all is quiet. */

@@ -7,7 +7,7 @@
  * motion that repeats, found twice in a row after the profiles have come to rest. Or what is free in its motion decays, in
  * two frames in a row, and the closed form says that it must. A sine of the load is never at rest.
  *
- * Who looks for a border only wants to know on which side a set lies: with is_brief a trial is over, without a window, as
+ * Who asks for a border or a share only wants to know on which side a set lies: with is_brief a trial is over, without a window, as
  * soon as the growth of the free motion is known beyond its error. */
 #ifndef SIM_TRIAL_H
 #define SIM_TRIAL_H
@@ -21,6 +21,7 @@ enum {
     TRIAL_PERIODS_MAX = 1000000, /* of transient or window */
     TRIAL_WINDOW_MIN = 8,
     TRIAL_TRANSIENT_DEFAULT = 360,
+    TRIAL_TRANSIENT_BRIEF = 1600, /* of a brief trial that cannot decide */
     TRIAL_WINDOW_DEFAULT = 40,
     TRIAL_PAUSE_PERIODS = 32 /* without a change of regime: what comes then is a new onset */
 };

@@ -11,14 +11,14 @@ static void check_scan(void)
     bench_open();
     (void)bench_say("preset brake\r");
     bench_listen_anew();
-    tap_check(bench_starts(bench_say("scan N1 1000 3000 3 alpha -0.06 -0.03 2\r"),
-                           "ok scan trials=6 unknown=0 quiet=5 watch=0 squeal=1 refused=0 diverged=0 caps=0 "
-                           "saturations=0 steps="),
+    tap_check(bench_starts(bench_say("scan N1 1000 3000 3 alpha -0.05 -0.03 2\r"),
+                           "ok scan trials=6 unknown=0 quiet=5 watch=0 squeal=1 loud=1 refused=0 diverged=0 "
+                           "caps=0 saturations=0 steps="),
               "a map of six points is counted");
     tap_check(
-        hears("- point done=1 of=6 i=0 j=0 N1=1000 alpha=-0.06 propensity=quiet class=rest period=0 amplitude_um=") &&
-            hears("- point done=3 of=6 i=2 j=0 N1=3000 alpha=-0.06 propensity=squeal "
-                  "class=limitcycle-stickslip-p1 period=1 amplitude_um=8.1") &&
+        hears("- point done=1 of=6 i=0 j=0 N1=1000 alpha=-0.05 propensity=quiet class=rest period=0 amplitude_um=") &&
+            hears("- point done=3 of=6 i=2 j=0 N1=3000 alpha=-0.05 propensity=squeal "
+                  "class=limitcycle-stickslip-p1 period=1 amplitude_um=8.") &&
             hears("- point done=6 of=6 i=2 j=1 N1=3000 alpha=-0.03 propensity=quiet "),
         "and told point by point, the first axis fastest");
     tap_check(hears(" predicted=squeal predicted_growth_per_s=99.99") && hears(" end=squealed periods=") &&
@@ -50,6 +50,12 @@ static void check_refusals(void)
         {"scan N0 1 2 3 window 7\r", "error out-of-range window=7: 8 .. 1000000, a whole number"},
         {"scan N0 1 2 3 whole often\r", "error usage scan"},
         {"scan arith f32 f64 2\r", "error out-of-range arith=f64: f32|q27"},
+        {"occurrence 0\r", "error out-of-range trials=0: 1 .. 100000, a whole number"},
+        {"occurrence\r", "error usage occurrence"},
+        {"occurrence 5 N 2\r", "error out-of-range 2: a relative spread: 0 .. 1"},
+        {"occurrence 5 N\r", "error usage occurrence"},
+        {"occurrence 5 m 0.1\r", "error usage occurrence"},
+        {"occurrence 5 seed -1\r", "error out-of-range seed=-1: 0 .. 16777215, a whole number"},
         {"margin nothing\r", "error unknown-name nothing: "},
         {"margin spp\r", "error not-served spp: margin takes "},
         {"margin N0 within 1\r", "error out-of-range 1: within: 1.001 .. 1000000"},
@@ -84,6 +90,25 @@ static void check_margin(void)
     tap_check(bench_starts(bench_say("margin within 1.01 transient 200\r"), "ok margin parameters=11 now=squeal "),
               "all of them, near by");
     tap_check(hears("- margin done=11 of=11 v0=0.1 unit=m/s now=squeal "), "one line each");
+}
+
+static void check_occurrence(void)
+{
+    bench_open();
+    (void)bench_say("preset brake\rset N1 2000\r");
+    bench_listen_anew();
+    tap_check(bench_starts(bench_say("occurrence 40 uniform N 0.2 seed 3\r"), "ok occurrence share=0."),
+              "a brake on its border squeals as often as not");
+    tap_check(bench_holds(bench.last, " scatter=uniform seed=3 clamped=0 trials=40 ") &&
+                  bench_holds(bench.last, " low=0.") && bench_holds(bench.last, " high=0."),
+              "with an interval, and what it was drawn from");
+    tap_check(hears("- trial done=1 of=40 mu_s=0.419999987 alpha=-0.0599999987 c=120 N_factor=") &&
+                  hears("- trial done=40 of=40 "),
+              "a line for each trial");
+    tap_check(bench_starts(bench_say("occurrence 10 N 0\r"), "ok occurrence share="), "no scatter is allowed");
+    (void)bench_say("set N1 1000\r");
+    tap_check(bench_starts(bench_say("occurrence 10 c 0.01\r"), "ok occurrence share=0 low=0 high=0.27"),
+              "none of ten is not never");
 }
 
 /* The plant in the interrupt steps on through a study as it would without it. */
@@ -139,6 +164,7 @@ void test_study(void)
     check_scan();
     check_refusals();
     check_margin();
+    check_occurrence();
     check_undisturbed();
     check_stop();
 }
