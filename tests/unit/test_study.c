@@ -11,7 +11,7 @@ static void check_scan(void)
     bench_open();
     (void)bench_say("preset brake\r");
     bench_listen_anew();
-    tap_check(bench_starts(bench_say("scan N1 1000 3000 3 alpha -0.05 -0.03 2\r"),
+    tap_check(bench_starts(bench_say("scan N1 1000 3000 3 alpha -0.05 -0.03 2 transient 1000\r"),
                            "ok scan trials=6 unknown=0 quiet=5 watch=0 squeal=1 loud=1 refused=0 diverged=0 "
                            "caps=0 saturations=0 steps="),
               "a map of six points is counted");
@@ -21,7 +21,7 @@ static void check_scan(void)
                   "class=limitcycle-stickslip-p1 period=1 amplitude_um=8.") &&
             hears("- point done=6 of=6 i=2 j=1 N1=3000 alpha=-0.03 propensity=quiet "),
         "and told point by point, the first axis fastest");
-    tap_check(hears(" predicted=squeal predicted_growth_per_s=99.99") && hears(" end=squealed periods=") &&
+    tap_check(hears(" predicted=squeal predicted_growth_per_s=49.99") && hears(" end=squealed periods=") &&
                   hears(" end=decayed periods="),
               "with the prediction, and why it ended");
     tap_check(bench_starts(bench_say("scan spp 16 1024 2 transient 0 window 8\r"), "ok scan trials=2 "),
