@@ -71,8 +71,7 @@ void study_occurrence_obey(struct console *console)
 {
     struct token word = token_first(console->arguments);
     struct study_occurrence study = {.occurrence = {.base = *executive_params(console->executive)}};
-    struct trial_span span = {
-        .transient = TRIAL_TRANSIENT_BRIEF, .window = TRIAL_WINDOW_DEFAULT, .is_brief = true};
+    struct trial_span span = {.transient = TRIAL_TRANSIENT_BRIEF, .window = TRIAL_WINDOW_DEFAULT, .is_brief = true};
 
     if (!study_read_count(console, "trials", word, 1u, OCCURRENCE_TRIALS_MAX, &study.of)) {
         return;

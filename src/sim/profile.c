@@ -205,4 +205,3 @@ int32_t profile_q27_moving_value(const struct profile_q27 *profile, uint64_t ste
         return profile->from;
     }
 }
-
