@@ -52,7 +52,7 @@ $(shell mkdir -p build && echo '$(BUILD_ID)' >build/build_id)
 endif
 
 # --- Rules ----------------------------------------------------------------------------------------------------------
-.PHONY: all run monitor test golden oracle noise debug check size clean help setup host-image
+.PHONY: all run monitor test golden oracle noise debug check size clean help setup other-images host-image command
 .DELETE_ON_ERROR:
 
 all: $(IMAGE) ## build the firmware for BOARD (default mps2-an386)
@@ -129,14 +129,19 @@ oracle: $(ORACLE) ## make golden rows for any parameters: the cases of CASES= in
 noise: host-image ## measure how much roughness starts squeal from rest, and how much a stable brake bears
 	$(Q)tools/starting_noise build/host/squeal
 
-test: $(IMAGE) $(UNIT_IMAGE) $(PROBE) $(UNIT_HOST) $(TOOL) $(ORACLE) host-image ## run everything that a change must pass
-	$(Q)BOARD=$(BOARD) BOARD_RUN="$(BOARD_RUN)" IMAGE=$(IMAGE) UNIT_IMAGE=$(UNIT_IMAGE) PROBE=$(PROBE) \
+test: $(IMAGE) $(UNIT_IMAGE) $(PROBE) $(UNIT_HOST) $(TOOL) $(ORACLE) other-images ## run everything that a change must pass
+	$(Q)COMMANDS="$$(for board in $(BOARDS); do $(MAKE) -s --no-print-directory BOARD=$$board command; done)"; export COMMANDS; \
+	BOARD=$(BOARD) BOARD_RUN="$(BOARD_RUN)" IMAGE=$(IMAGE) UNIT_IMAGE=$(UNIT_IMAGE) PROBE=$(PROBE) \
 	    UNIT_HOST=$(UNIT_HOST) HOST_IMAGE=build/host/squeal TOOL=$(TOOL) ORACLE=$(CURDIR)/$(ORACLE) tools/tap_summary $(wildcard tests/*.t tests/system/*.t)
 
-host-image: $(if $(filter host,$(BOARD)),$(IMAGE))
-ifneq ($(BOARD),host)
+host-image:
 	$(Q)$(MAKE) --no-print-directory BOARD=host all
-endif
+
+other-images:
+	$(Q)for board in $(filter-out $(BOARD),$(BOARDS)); do $(MAKE) --no-print-directory BOARD=$$board all || exit; done
+
+command: ## print "board: the command that starts its firmware"
+	@echo "$(BOARD): $(COMMAND)"
 
 debug: $(IMAGE) ## halt the emulated board at reset and attach gdb; the console goes to build/<board>/console.txt
 	$(if $(BOARD_RUN),,$(error BOARD=host needs no emulator: gdb $(IMAGE)))

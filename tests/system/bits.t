@@ -6,7 +6,7 @@ import os
 import sys
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from firmware import Firmware, Tap  # noqa: E402
+from firmware import COMMANDS, Firmware, Tap  # noqa: E402
 
 # What is done to the plant between grants of steps: live changes, and a restart with another model.
 SCRIPT = [
@@ -50,8 +50,15 @@ def hashes(where, arith, substeps, pieces=1, share=1):
 # Steps a tick and cuts of the grants; the arithmetic that is not the board's own makes do with two of them.
 RUNS = [("host", 1, 1), ("host", 7, 5), ("board", 64, 1), ("board", 7, 5), ("board", 1, 2)]
 tap = Tap()
-with Firmware("board") as board:
-    default = board.ask("get arith")["arith"]
+
+
+def own_arithmetic(where):
+    """The one that the board starts with."""
+    with Firmware(where) as firmware:
+        return firmware.ask("get arith")["arith"]
+
+
+default = own_arithmetic("board")
 for arith in ["f32", "q27"]:
     # A board that starts in fixed point has no FPU: its floats are worth a fiftieth of the steps.
     share = 50 if arith == "f32" != default else 1
@@ -62,6 +69,14 @@ for arith in ["f32", "q27"]:
     for where, substeps, pieces in RUNS if arith == default else RUNS[1:3]:
         seen = hashes(where, arith, substeps, pieces, share)
         tap.check(seen == truth, f"{arith} on {where}: same bits with {substeps} steps a tick, grants cut in {pieces}",
+                  *[f"{line}: {a} instead of {b}" for (line, _), a, b in zip(SCRIPT, seen, truth) if a != b][:3])
+
+for where in sorted(set(COMMANDS) - {"board", "host", os.environ["BOARD"]}):
+    own = own_arithmetic(where)
+    for arith in ["f32", "q27"]:
+        share = 50 if arith == "f32" != own else 5
+        seen, truth = (hashes(place, arith, 64, share=share) for place in (where, "host"))
+        tap.check(len(seen) == len(SCRIPT) + 2 and seen == truth, f"{arith} on {where}: same bits, a part of the steps",
                   *[f"{line}: {a} instead of {b}" for (line, _), a, b in zip(SCRIPT, seen, truth) if a != b][:3])
 
 

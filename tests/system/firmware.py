@@ -7,10 +7,10 @@ import signal
 import subprocess
 import time
 
-COMMANDS = {
-    "board": shlex.split(os.environ["BOARD_RUN"]) + [os.environ["IMAGE"]],
-    "host": [os.environ["HOST_IMAGE"]],
-}
+# By board, as make command prints them; "board" is the one under test.
+COMMANDS = {name: shlex.split(command)
+            for name, command in (line.split(": ", 1) for line in os.environ["COMMANDS"].splitlines())}
+COMMANDS["board"] = COMMANDS[os.environ["BOARD"]]
 
 
 class Silence(Exception):
