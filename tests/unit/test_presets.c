@@ -53,10 +53,11 @@ static void check_values(void)
                   params.friction_static_ratio == 0.42f && params.friction_slope_s_per_m == -0.06f &&
                   params.friction_floor_ratio == 0.36f && params.speed_m_per_s == 0.1f &&
                   params.load_profile == (float)LOAD_RAMP && params.load_n == 0.0f && params.load_end_n == 3000.0f &&
-                  params.load_end_s == 0.05f,
+                  params.load_end_s == 0.05f && params.roughness_ratio == 2.5e-7f && params.runout_ratio == 1e-3f,
               "brake is the documented set");
     params = plants_preset("fig5-n10", "");
-    tap_check(params.load_n == 10.0f && params.mass_kg == 0.3f && params.load_profile == (float)LOAD_CONSTANT,
+    tap_check(params.load_n == 10.0f && params.mass_kg == 0.3f && params.load_profile == (float)LOAD_CONSTANT &&
+                  params.roughness_ratio == 0.0f && params.runout_ratio == 0.0f,
               "a preset starts from Table 1 and changes what it names");
 }
 

@@ -238,38 +238,36 @@ static void check_nothing(void)
 
 /* --- What it is for ----------------------------------------------------------------------------------------------- */
 
-/* The brake slides steadily, to the last digit that its numbers hold. Periods until it squeals, or 0. */
-static uint32_t periods_to_squeal(const char *name, const char *equilibrium, bool is_q27, bool is_smooth, uint32_t most)
-{
-    struct params params = plants_preset(name, equilibrium);
+/* Where the brakes slide steadily, to the last digit that their numbers hold. */
+#define BRAKE_3000 "load constant N0 3000 x0 2.61473677e-5 y0 3e-5 "
+#define GROAN_1000 "load constant N0 1000 x0 1.40316209e-4 y0 1.65016502e-4 "
 
-    params.arithmetic = is_q27 ? (float)ARITH_Q27 : (float)ARITH_F32;
-    params.roughness_ratio = is_smooth ? 0.0f : params.roughness_ratio;
-    params.runout_ratio = is_smooth ? 0.0f : params.runout_ratio;
-    plants_plan(&plant.plan, &params);
-    sim_reset(sim, &plant.plan);
-    for (uint32_t i = 1u; i <= most; i++) {
+/* Does a preset start to squeal within so many periods? */
+static bool starts(const char *name, const char *assignments, uint32_t periods)
+{
+    plants_start_preset(&plant, name, assignments);
+    for (uint32_t i = 0u; i < periods; i++) {
         plants_run_periods(&plant, 1u);
         if (sim->detector.verdict.propensity == PROPENSITY_SQUEAL) {
-            return i;
+            return true;
         }
     }
-    return 0u;
+    return false;
 }
-
-#define BRAKE_3000 "load constant N0 3000 x0 2.61473677e-5 y0 3e-5"
-#define GROAN_1000 "load constant N0 1000 x0 1.40316209e-4 y0 1.65016502e-4"
 
 static void check_start(void)
 {
-    tap_check(periods_to_squeal("brake", BRAKE_3000, true, true, plants_scaled(2000u, 150u)) == 0u &&
-                  sim->output.v == 0,
-              "in integers an unstable brake without noise locks at its equilibrium");
-    tap_check(periods_to_squeal("groan", GROAN_1000, true, false, 150u) > 0u, "its noise starts creep groan");
+    const uint32_t many = plants_scaled(2000u, 150u);
+
+    tap_check(!starts("brake", BRAKE_3000 "arith q27 rough 0 runout 0", many) && sim->output.v == 0,
+              "in integers an unstable brake on a perfect disc locks at its equilibrium");
+    tap_check(starts("groan", GROAN_1000 "arith q27", 150u), "the preset's disc starts creep groan");
     if (tap_is_hosted()) {
-        tap_check(periods_to_squeal("groan", GROAN_1000, false, false, 150u) > 0u, "in single precision too");
-        tap_check(periods_to_squeal("brake", BRAKE_3000, true, false, 400u) > 0u, "and squeal");
-        tap_check(periods_to_squeal("brake", BRAKE_3000, false, false, 400u) > 0u, "in both");
+        tap_check(starts("groan", GROAN_1000, 150u), "in single precision too");
+        tap_check(starts("brake", BRAKE_3000 "arith q27", 400u), "and squeal");
+        tap_check(starts("brake", BRAKE_3000, 400u), "in both");
+        tap_check(starts("brake", BRAKE_3000 "arith q27 runout 0", 400u), "roughness alone does it");
+        tap_check(starts("brake", BRAKE_3000 "arith q27 rough 0", 400u), "so does run-out");
     }
 }
 
