@@ -55,7 +55,7 @@ static struct step_f32_input input_f32(const struct sim *sim)
     struct step_f32_input input = {profile_value(&plan->load, sim->step), profile_value(&plan->speed, sim->step)};
 
     if (plan->texture.is_active) {
-        const int32_t disc = fixed_from_float(input.speed, PLANT_FRACTION_BITS);
+        const int32_t disc = (int32_t)(input.speed * (float)(1 << PLANT_FRACTION_BITS)); /* the speed is within 1 */
 
         input.load = texture_load_f32(input.load, texture_value(&plan->texture, &sim->angle, sim->step, disc));
     }
