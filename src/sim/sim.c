@@ -48,28 +48,35 @@ struct params_problem sim_plan_make(struct sim_plan *plan, const struct params *
 
 /* --- The two arithmetics ------------------------------------------------------------------------------------------ */
 
+static void renew_texture(struct sim *sim, int32_t disc)
+{
+    if (texture_begins(&sim->plan->texture, sim->step)) {
+        sim->texture = texture_value(&sim->plan->texture, &sim->angle, sim->step, disc);
+    }
+}
+
 /* Load and speed held over the step to come. */
-static struct step_f32_input input_f32(const struct sim *sim)
+static struct step_f32_input input_f32(struct sim *sim)
 {
     const struct sim_plan *plan = sim->plan;
     struct step_f32_input input = {profile_value(&plan->load, sim->step), profile_value(&plan->speed, sim->step)};
 
     if (plan->texture.is_active) {
-        const int32_t disc = (int32_t)(input.speed * (float)(1 << PLANT_FRACTION_BITS)); /* the speed is within 1 */
-
-        input.load = texture_load_f32(input.load, texture_value(&plan->texture, &sim->angle, sim->step, disc));
+        renew_texture(sim, (int32_t)(input.speed * (float)(1 << PLANT_FRACTION_BITS))); /* the speed is within 1 */
+        input.load = texture_load_f32(input.load, sim->texture);
     }
     return input;
 }
 
-static struct step_q27_input input_q27(const struct sim *sim)
+static struct step_q27_input input_q27(struct sim *sim)
 {
     const struct sim_plan *plan = sim->plan;
     struct step_q27_input input = {profile_q27_value(&plan->load_q27, sim->step),
                                    profile_q27_value(&plan->speed_q27, sim->step)};
 
     if (plan->texture.is_active) {
-        input.load = texture_load_q27(input.load, texture_value(&plan->texture, &sim->angle, sim->step, input.speed));
+        renew_texture(sim, input.speed);
+        input.load = texture_load_q27(input.load, sim->texture);
     }
     return input;
 }
@@ -148,6 +155,7 @@ void sim_reset(struct sim *sim, const struct sim_plan *plan)
     sim->counters = (struct sim_counters){0};
     sim->measure = (struct measure){0};
     sim->angle = (struct texture_angle){0};
+    sim->texture = 0;
     reset_plant(sim);
     detector_reset(&sim->detector, &plan->detector, &sim->output);
 }

@@ -51,6 +51,7 @@ struct sim {
     struct step_q27 q27;
     struct plant_output output;
     struct texture_angle angle; /* of the disc; counted from reset, while there is run-out */
+    int32_t texture;            /* that acts on the load */
     struct detector detector;
     struct measure measure;
     struct sim_counters counters;

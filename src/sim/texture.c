@@ -35,7 +35,7 @@ static int32_t roughness(const struct texture *texture, uint64_t step)
 static int32_t runout(const struct texture *texture, const struct texture_angle *angle, int32_t disc)
 {
     const int64_t half = fixed_floor((int64_t)((uint64_t)(int64_t)disc * texture->turns), 1u);
-    const uint64_t middle = angle->turns + (uint64_t)half;
+    const uint64_t middle = angle->turns + ((uint64_t)half << texture->hold_shift);
 
     return fixed_product(fmath_sine_turns_q30((uint32_t)(middle >> 32)), texture->runout, TEXTURE_BITS);
 }

@@ -14,6 +14,7 @@ enum {
 
 #define LN2 0.693147181f
 #define ERROR_DEVIATIONS 3.0f
+#define WANDER_LEAST 0.02f /* of the ratio: beyond it so few frames say nothing more */
 
 static uint64_t periods_to_steps(const struct trial *trial, uint32_t periods)
 {
@@ -75,6 +76,8 @@ static void book_growth(struct trial *trial)
         line->first_log2_q16 = log2_q16;
     }
     value = (log2_q16 - line->first_log2_q16) / LINE_UNIT;
+    line->change_square += (value - line->last) * (value - line->last);
+    line->last = value;
     line->sum += value;
     line->sum_square += value * value;
     line->sum_place += value * (int64_t)line->count;
@@ -205,6 +208,17 @@ static float from_i64(int64_t value)
     return value < 0 ? -fmath_from_u64(0u - (uint64_t)value) : fmath_from_u64((uint64_t)value);
 }
 
+/* How much longer the error of a slope is where a residue resembles the one before: noise near a border wanders slowly. By
+ * the ratio of Durbin and Watson, 2 (1 - r) where r is the correlation from one frame to the next. */
+static float wander(const struct trial_line *line, float slope, float rest)
+{
+    const float frames = (float)(line->count - 1u);
+    const float change = from_i64(line->change_square) - 2.0f * slope * from_i64(line->last) + frames * slope * slope;
+    const float ratio = rest > 0.0f ? change / rest : 2.0f;
+
+    return fmath_sqrt(fmath_max(4.0f - ratio, 0.0f) / fmath_max(ratio, WANDER_LEAST));
+}
+
 bool trial_growth(const struct trial *trial, float *growth, float *error)
 {
     const struct trial_line *line = &trial->line;
@@ -222,7 +236,8 @@ bool trial_growth(const struct trial *trial, float *growth, float *error)
     slope = (from_i64(line->sum_place) - 0.5f * (count - 1.0f) * sum) / spread;
     rest = fmath_max(from_i64(line->sum_square) - sum * (sum / count) - slope * slope * spread, 0.0f);
     *growth = slope * to_period;
-    *error = ERROR_DEVIATIONS * fmath_sqrt(rest / ((count - 2.0f) * spread)) * to_period;
+    *error = ERROR_DEVIATIONS * fmath_sqrt(rest / ((count - 2.0f) * spread)) *
+             fmath_max(wander(line, slope, rest), 1.0f) * to_period;
     return true;
 }
 
@@ -235,7 +250,7 @@ bool trial_is_loud(const struct trial *trial)
         return trial->end == TRIAL_GREW;
     }
     return trial->sim.detector.verdict.propensity == PROPENSITY_SQUEAL ||
-           (slips_on(trial) && trial_growth(trial, &growth, &error) && growth > 0.0f);
+           (slips_on(trial) && trial_growth(trial, &growth, &error) && growth > error);
 }
 
 const char *trial_end_name(uint8_t end)

@@ -41,7 +41,9 @@ enum trial_end { TRIAL_RUNS, TRIAL_WAS_WHOLE, TRIAL_SQUEALED, TRIAL_DECAYED, TRI
 struct trial_line {
     uint32_t count;
     int32_t first_log2_q16;
-    int64_t sum, sum_square, sum_place; /* of the logarithms in Q12, less the first; of place times logarithm */
+    int64_t last;                       /* logarithms here are in Q12, less the first */
+    int64_t sum, sum_square, sum_place; /* of the logarithms; of place times logarithm */
+    int64_t change_square;              /* of their changes from frame to frame */
 };
 
 struct trial {
@@ -78,8 +80,7 @@ float trial_periods(const struct trial *trial);
  * standard deviations); false if too few frames showed any. [MAIN] */
 bool trial_growth(const struct trial *trial, float *growth, float *error);
 
-/* Does the set squeal, or will it: by the growth where that is certain, else by the verdict, else by the sign of the growth?
- * Of a trial that is over. [MAIN] */
+/* Does the set squeal, or will it: by the verdict, or by a growth beyond its error? Of a trial that is over. [MAIN] */
 bool trial_is_loud(const struct trial *trial);
 
 /* The word of the protocol for enum trial_end. [MAIN] */
