@@ -31,8 +31,7 @@ struct plot_unit plot_unit_of_speed(double size)
 
 bool plot_is_possible(void) { return system("command -v gnuplot >/dev/null 2>&1") == 0; }
 
-/* The text as gnuplot may print it: quotes and the marks of its enhanced text are replaced. */
-static const char *plain(const char *text, char out[SESSION_LINE_MAX])
+const char *plot_plain(const char *text, char out[SESSION_LINE_MAX])
 {
     size_t i = 0;
 
@@ -49,8 +48,8 @@ void plot_title_write(FILE *script, const struct act *act)
 
     (void)fields_text(act->verdict, "class", class, sizeof class);
     (void)fields_text(act->verdict, "frequency_hz", frequency, sizeof frequency);
-    (void)fprintf(script, "set title offset 0,1.3 \"%s", plain(act->title, words));
-    (void)fprintf(script, "\\n{/*0.8 %s", plain(class, words));
+    (void)fprintf(script, "set title offset 0,1.3 \"%s", plot_plain(act->title, words));
+    (void)fprintf(script, "\\n{/*0.8 %s", plot_plain(class, words));
     if (frequency[0] != '\0' && strcmp(frequency, "nan") != 0) {
         (void)fprintf(script, ", %.5g Hz", fields_number(act->verdict, "frequency_hz"));
     }

@@ -31,6 +31,9 @@ FILE *plot_script_open(struct story *story);
 /* Begins the picture called name in one of its two formats, with the look that all share. */
 void plot_picture_start(FILE *script, const struct story *story, const char *name, bool is_svg);
 
+/* The text as gnuplot may print it: quotes and the marks of its enhanced text are replaced. */
+const char *plot_plain(const char *text, char out[SESSION_LINE_MAX]);
+
 /* The act's title, and under it what motion it ended in. */
 void plot_title_write(FILE *script, const struct act *act);
 
