@@ -17,14 +17,14 @@ static struct plot_unit unit_for(double size, const char *names[3])
 
 struct plot_unit plot_unit_of_length(double size)
 {
-    const char *names[3] = {"m", "mm", "{/Symbol m}m"};
+    const char *names[3] = {"m", "mm", PLOT_MICRO "m"};
 
     return unit_for(size, names);
 }
 
 struct plot_unit plot_unit_of_speed(double size)
 {
-    const char *names[3] = {"m/s", "mm/s", "{/Symbol m}m/s"};
+    const char *names[3] = {"m/s", "mm/s", PLOT_MICRO "m/s"};
 
     return unit_for(size, names);
 }
@@ -72,8 +72,10 @@ void plot_picture_start(FILE *script, const struct story *story, const char *nam
     char path[STORY_PATH_SIZE], file[64];
 
     (void)snprintf(file, sizeof file, "%s.%s", name, is_svg ? "svg" : "png");
-    (void)fprintf(script, "reset\nset terminal %s size 1200,900 font 'Helvetica,%d' enhanced background 'white'\n",
-                  is_svg ? "svg" : "pngcairo", is_svg ? 20 : 18);
+    (void)fprintf(
+        script,
+        "reset\nset encoding utf8\nset terminal %s size 1200,900 font 'Helvetica,%d' enhanced background 'white'\n",
+        is_svg ? "svg" : "pngcairo", is_svg ? 20 : 18);
     (void)fputs("set output ", script);
     path_write(script, story_path(story, path, file));
     (void)fputs("\nset border 3 lc rgb '#606060'\nset tics nomirror out\nset grid lc rgb '#ececec' lt 1\n"

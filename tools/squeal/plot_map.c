@@ -14,7 +14,7 @@
 #define TILE 0.94        /* of the room a trial has on each axis; the rest is the seam */
 #define LABEL_PLACE 0.62 /* along the axis of force, of the name on the line */
 #define LINE_POINTS 200
-#define PICTURE_SHAPE 0.765 /* height of the frame by its width, as the margins make it */
+#define PICTURE_SHAPE 0.74 /* height of the frame by its width, as the margins make it */
 
 /* Of one axis: half the room of a trial, and what the axis shows. */
 struct room {
@@ -113,7 +113,7 @@ static void line_name_write(FILE *script, const struct map *map)
 
     if (share > 0.0 && share < 1.0) {
         (void)fprintf(script,
-                      "set label '|{/Symbol a}| N = c = %g N s/m' at first %.7g, first %.7g center rotate by %.1f "
+                      "set label '|" PLOT_ALPHA "| N = c = %g N s/m' at first %.7g, first %.7g center rotate by %.1f "
                       "offset 0,-1.1 front\n",
                       map->damping_n_s_per_m, force, slope, atan(rise * PICTURE_SHAPE) * 180.0 / acos(-1.0));
     }
@@ -140,17 +140,17 @@ static void frame_write(FILE *script, const struct map *map, const struct map_co
     const double margin = counts->most_um > counts->least_um ? 0.0 : 0.5;
 
     (void)fprintf(script,
-                  "set lmargin at screen 0.125\nset rmargin at screen 0.85\nset bmargin at screen 0.105\n"
+                  "set lmargin at screen 0.125\nset rmargin at screen 0.85\nset bmargin at screen 0.13\n"
                   "set tmargin at screen 0.845\nset xrange [%.7g:%.7g]\nset yrange [%.7g:%.7g]\nunset grid\n"
                   "set key at graph 1,1.005 right bottom horizontal maxrows 1 samplen 1.5 width -1 font ',15'\n"
                   "set xlabel 'brake force N  [N]'\n"
-                  "set ylabel 'friction slope {/Symbol a}  [s/m], steeper upwards'\nset format y '%%.2f'\n"
+                  "set ylabel 'friction slope " PLOT_ALPHA "  [s/m], steeper upwards'\nset format y '%%.2f'\n"
                   "set palette defined (" PALETTE ")\n",
                   x.low, x.high, y.high, y.low);
     if (counts->most_um >= counts->least_um) {
         (void)fprintf(script,
                       "set cbrange [%.6g:%.6g]\nset cbtics out\n"
-                      "set cblabel 'amplitude where it squeals  [{/Symbol m}m]'\n",
+                      "set cblabel 'amplitude where it squeals  [" PLOT_MICRO "m]'\n",
                       counts->least_um - margin, counts->most_um + margin);
     } else {
         (void)fputs("set cbrange [0:1]\nunset colorbox\n", script);
@@ -177,16 +177,17 @@ void plot_map(struct story *story)
         title_write(script, story);
         frame_write(script, map, &counts);
         line_name_write(script, map);
+        (void)fprintf(script, "size = %g\n", i == 0 ? 0.4 : 0.7); /* the formats differ in what a point's size is */
         (void)fputs("plot $quiet using 1:2:3:4:5:6 with boxxyerror fs solid noborder fc rgb '" COLOUR_QUIET
                     "' notitle, "
                     "$watch using 1:2:3:4:5:6 with boxxyerror " WATCH_LOOK " notitle, "
                     "$squeal using 1:2:3:4:5:6:7 with boxxyerror fs solid noborder fc palette notitle, "
                     "$border with lines lw 3 lc rgb '" COLOUR_BORDER "' notitle, "
                     "$line with lines lw 3 lc rgb 'black' notitle, "
-                    "$growing with points pt 7 ps 0.7 lc rgb '#303030' notitle, "
+                    "$growing with points pt 7 ps size lc rgb '#303030' notitle, "
                     "NaN with boxes fs solid noborder fc rgb '" COLOUR_QUIET "' title 'quiet', "
                     "NaN with boxes " WATCH_LOOK " title 'watch', "
-                    "NaN with points pt 7 ps 0.7 lc rgb '#303030' title 'still growing', "
+                    "NaN with points pt 7 ps size lc rgb '#303030' title 'still growing', "
                     "NaN with lines lw 3 lc rgb '" COLOUR_BORDER "' title 'border as predicted'\n",
                     script);
     }

@@ -12,6 +12,10 @@
 #define PLOT_COLOUR_WATCH "#fff4d6"
 #define PLOT_COLOUR_SQUEAL "#f9dede"
 
+/* In UTF-8. A letter of a symbol font would be read as another one where that font is missing: mm for micrometres. */
+#define PLOT_MICRO "\302\265"
+#define PLOT_ALPHA "\316\261"
+
 /* A unit that makes a quantity readable. */
 struct plot_unit {
     double factor;
