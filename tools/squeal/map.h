@@ -79,6 +79,9 @@ struct map_counts map_count(const struct map *map);
 /* Points that never came. */
 size_t map_missing(const struct map *map);
 
+/* Removes what an earlier run left in the folder of the story. */
+void map_forget(const struct story *story);
+
 /* Writes map.csv, every field of every point that came. */
 void map_write(struct story *story);
 

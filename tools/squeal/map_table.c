@@ -76,6 +76,16 @@ static void row_write(FILE *file, const struct columns *columns, const char *lin
     (void)fputc('\n', file);
 }
 
+void map_forget(const struct story *story)
+{
+    static const char *const names[] = {"map.csv", "map.svg", "map.png"};
+    char path[STORY_PATH_SIZE];
+
+    for (size_t i = 0; i < sizeof names / sizeof names[0]; i++) {
+        (void)remove(story_path(story, path, names[i])); /* mostly there is none */
+    }
+}
+
 void map_write(struct story *story)
 {
     const struct map *map = &story->map;

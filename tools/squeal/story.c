@@ -114,6 +114,7 @@ static int story_run(struct story *story)
         story_fail(story, "%s", story->record.problem);
         return EXIT_FAILED;
     }
+    map_forget(story);
     play_all(story);
     if (record_close(&story->record)) {
         story_wrote(story, path, "the samples of every act");
