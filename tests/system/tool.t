@@ -237,7 +237,7 @@ def map_tests(tap, out, story):
            [(row["i"], row["j"]) for row in rows[5:8]] == [("5", "0"), ("0", "1"), ("1", "1")], "and every point")
     tap.ok(rows[5]["error"] == "out-of-scale" and rows[5]["propensity"] == "", "a refused point has its reason, and no more")
     tap.ok("squeal               14 points, amplitude 8.12 to 8.83 um" in run.stdout and
-           "watch                1 points" in run.stdout and "quiet                15 points" in run.stdout and
+           "watch                1 point," in run.stdout and "quiet                15 points" in run.stdout and
            "still growing        3 points" in run.stdout, "counts by verdict are told", run)
     tap.ok("|alpha| N = c        right at 29 points, wrong at 0" in run.stdout and
            "prediction           right at 29 points, wrong at 0" in run.stdout and "a point\n" in run.stdout,
@@ -280,11 +280,27 @@ def map_tests(tap, out, story):
     tap.ok(len(table()) == cut == known["points"] and not known["complete"] and
            known["counted_by_the_device"]["trials"] == cut, "what had come by then is kept")
 
+    pid_file = out + "/pid"
+    run = subprocess.Popen([TOOL, "run", "--board", "fake", "--out", out, "--acts", "1", "--points", "6", "--", *FAKE, "--mute",
+                            "scan", "--pid-file", pid_file], stdout=subprocess.PIPE, stderr=subprocess.DEVNULL,
+                           stdin=subprocess.DEVNULL, universal_newlines=True)
+    while "each from its start" not in run.stdout.readline():
+        pass
+    time.sleep(0.2)
+    run.send_signal(signal.SIGINT)
+    time.sleep(0.2)
+    is_held = run.poll() is None
+    run.send_signal(signal.SIGINT)
+    run.communicate(timeout=LIMIT_S)
+    with open(pid_file) as file:
+        tap.ok(is_held and run.returncode == -signal.SIGINT and not is_running(int(file.read())),
+               "a second Ctrl-C does not wait for the device")
+
     run = the_map("--lose", "8")
     tap.ok(run.returncode == 1 and "the map: 1 of 36 points never came" in run.stderr and len(table()) == 35 and
            record()["points_missing"] == 1, "a lost point is an error", run)
     run = the_map("--blur", "8")
-    tap.ok(run.returncode == 1 and "the map: 1 lines that are no point of it" in run.stderr and
+    tap.ok(run.returncode == 1 and "the map: 1 line is no point of it" in run.stderr and
            "1 of 36 points never came" in run.stderr, "a damaged one too", run)
     run = the_map("--say", "quiet=12")
     tap.ok(run.returncode == 1 and "not those that the device counted" in run.stderr and not record()["complete"],

@@ -166,7 +166,8 @@ static void counts_check(struct story *story)
         is_same = is_same && fields_number(map->answer, keys[i]) == (double)counts.by_propensity[i];
     }
     if (map->unreadable > 0) {
-        story_fail(story, "the map: %zu lines that are no point of it", map->unreadable);
+        story_fail(story, "the map: %zu %s no point of it", map->unreadable,
+                   map->unreadable == 1 ? "line is" : "lines are");
     }
     if (map_missing(map) > 0) {
         story_fail(story, "the map: %zu of %zu points never came", map_missing(map), map->side * map->side);

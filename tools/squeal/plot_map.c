@@ -1,5 +1,6 @@
 /* The map: a tile for each trial, over force and slope. Squeal runs from light to dark with its size, so that it is read
- * in print too; what still grows carries a dot, for it is not yet at its size. The steeper slope is on top: upwards and to the right it gets worse. */
+ * in print too; what still grows carries a dot, for it is not yet at its size. The steeper slope is on top: upwards and
+ * to the right it gets worse. */
 #include "plot_parts.h"
 
 #include "fields.h"

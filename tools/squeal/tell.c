@@ -114,13 +114,14 @@ void tell_map_start(const struct story *story)
 static void points_print(const char *label, size_t points, const char *what)
 {
     if (points > 0) {
-        printf("    %-20s %zu points%s\n", label, points, what);
+        printf("    %-20s %zu point%s%s\n", label, points, points == 1 ? "" : "s", what);
     }
 }
 
 static void rule_print(const char *label, const struct map_rule *rule)
 {
-    printf("    %-20s right at %zu points, wrong at %zu\n", label, rule->agree, rule->differ);
+    printf("    %-20s right at %zu point%s, wrong at %zu\n", label, rule->agree, rule->agree == 1 ? "" : "s",
+           rule->differ);
 }
 
 /* What should be nothing, and is told where it is not. */
