@@ -7,7 +7,7 @@ every failure. It computes nothing: the answers for a case come from the table t
   --say KEY=TEXT      replaces a field of its answers
   --refuse TEXT       answers error to lines that start with TEXT
   --die TEXT          complains on stderr and exits 3 at lines that start with TEXT
-  --mute TEXT         never answers lines that start with TEXT
+  --mute TEXT         says nothing any more from a line that starts with TEXT on
   --flood             says a lot before it reads each line
   --gap               loses samples of a demo and counts them
   --hide              loses samples of a demo and does not count them
@@ -268,6 +268,7 @@ class Firmware:
             getattr(self, "do_" + name)(words)
 
     def run(self):
+        is_mute = False
         self.say("squeal, a fake")
         for line in sys.stdin:
             line = line.strip()
@@ -279,7 +280,8 @@ class Firmware:
             if self.options.die and line.startswith(self.options.die):
                 sys.stderr.write("fake: first complaint\nfake: the kernel image is gone\n")
                 sys.exit(3)
-            if self.options.mute and line.startswith(self.options.mute):
+            is_mute = is_mute or bool(self.options.mute) and line.startswith(self.options.mute)
+            if is_mute:
                 continue
             try:
                 if self.options.refuse and line.startswith(self.options.refuse):

@@ -210,6 +210,20 @@ def sound_of(path):
     return rate, points, (len(ups) - 1) * rate / (ups[-1] - ups[0])
 
 
+def read_until(file, text):
+    """What a pipe or terminal says up to that, or to its end."""
+    said = b""
+    while text is None or text not in said:
+        try:
+            more = os.read(file, 1024)
+        except OSError:
+            more = b""
+        if not more:
+            break
+        said += more
+    return said
+
+
 def map_tests(tap, out, story):
     def the_map(*fake, more=(), env={**os.environ, "PATH": out + "/nothing"}):
         return story(*fake, more=("--acts", "1", "--points", "6", *more), env=env)
@@ -264,14 +278,11 @@ def map_tests(tap, out, story):
                            stdout=subprocess.PIPE, stderr=slave, stdin=subprocess.DEVNULL, universal_newlines=True,
                            env={**os.environ, "PATH": out + "/nothing"})
     os.close(slave)
-    shown = b""
-    while b"#" not in shown:
-        shown += os.read(master, 1024)
+    shown = read_until(master, b"#")
     run.send_signal(signal.SIGINT)
     stdout = run.communicate(timeout=LIMIT_S)[0]
-    shown += os.read(master, 4096)
+    shown = (shown + read_until(master, None)).decode()
     os.close(master)
-    shown = shown.decode()
     tap.ok(shown.startswith("\r[") and " of 36 points, " in shown and " s left" in shown, "on a terminal it is a bar in place")
     known = record()
     cut = int(shown.split("the map was cut short: ")[1].split()[0]) if "cut short" in shown else 0
@@ -281,11 +292,10 @@ def map_tests(tap, out, story):
            known["counted_by_the_device"]["trials"] == cut, "what had come by then is kept")
 
     pid_file = out + "/pid"
-    run = subprocess.Popen([TOOL, "run", "--board", "fake", "--out", out, "--acts", "1", "--points", "6", "--", *FAKE, "--mute",
-                            "scan", "--pid-file", pid_file], stdout=subprocess.PIPE, stderr=subprocess.DEVNULL,
-                           stdin=subprocess.DEVNULL, universal_newlines=True)
-    while "each from its start" not in run.stdout.readline():
-        pass
+    run = subprocess.Popen([TOOL, "run", "--board", "fake", "--out", out, "--acts", "1", "--points", "6", "--limit", "9", "--",
+                            *FAKE, "--mute", "scan", "--pid-file", pid_file], stdout=subprocess.PIPE, stderr=subprocess.DEVNULL,
+                           stdin=subprocess.DEVNULL)
+    read_until(run.stdout.fileno(), b"each from its start")
     time.sleep(0.2)
     run.send_signal(signal.SIGINT)
     time.sleep(0.2)
@@ -313,7 +323,7 @@ def map_tests(tap, out, story):
            record()["points"] == 0 and not names(), "a refused map", run)
     run = the_map("--die", "scan")
     tap.ok(run.returncode == 1 and "the map: the firmware ended with exit code 3" in run.stderr, "a firmware that dies at it", run)
-    run = the_map("--slow", more=("--limit", "1", "--points", "4"))
+    run = the_map("--slow", more=("--limit", "3"))
     tap.ok(run.returncode == 0, "the limit is for each point, not for the map", run)
     run = the_map("--mute", "scan", more=("--limit", "1"))
     tap.ok(run.returncode == 1 and "the firmware was silent for 1 s" in run.stderr, "a firmware silent at it", run)
