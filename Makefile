@@ -109,10 +109,11 @@ ARITH      ?= f32
 SPP        ?= 64
 NORMAL     ?= exact
 METHOD     ?= event
+POINTS     ?=
 ASYMPTOTIC ?=
 
-run: $(IMAGE) $(TOOL) ## run the demonstration, record and pictures in build/run
-	$(Q)$(TOOL) run --board $(BOARD) --out build/run -- $(COMMAND)
+run: $(IMAGE) $(TOOL) ## run the demonstration and the map, results in build/run (POINTS= of the map along an axis, 0: none)
+	$(Q)$(TOOL) run --board $(BOARD) --out build/run $(if $(POINTS),--points $(POINTS)) -- $(COMMAND)
 
 monitor: $(IMAGE) ## talk to the firmware in this terminal
 	@echo "Ctrl-C leaves. The firmware echoes; type help and Enter."

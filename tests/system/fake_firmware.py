@@ -7,17 +7,22 @@ every failure. It computes nothing: the answers for a case come from the table t
   --say KEY=TEXT      replaces a field of its answers
   --refuse TEXT       answers error to lines that start with TEXT
   --die TEXT          complains on stderr and exits 3 at lines that start with TEXT
-  --mute TEXT         never answers lines that start with TEXT
+  --mute TEXT         says nothing any more from a line that starts with TEXT on
   --flood             says a lot before it reads each line
   --gap               loses samples of a demo and counts them
   --hide              loses samples of a demo and does not count them
   --emulated          says that it runs in an emulator
   --speechless        ends a demo without a verdict
+  --lose N            loses the N-th point of a scan on the way
+  --blur N            damages it on the way
+  --cut N             cuts a scan short after so many points
+  --slow              takes its time for a point of a scan, and listens for a stop
 """
 import argparse
 import csv
 import math
 import os
+import select
 import sys
 
 DEFAULTS = {
@@ -205,6 +210,44 @@ class Firmware:
                  "stick=0.051 predicted=squeal sigma=10" % ("squeal" if act == 2 else "quiet"))
         self.answer("demo", act=act)
 
+    def point(self, done, total, side, force, slope):
+        """Squeals where |alpha| N > c, and grows beside that; above 5000 N the model cannot hold the set."""
+        line = "- point done=%d of=%d i=%d j=%d N1=%.9g alpha=%.9g " % (done, total, (done - 1) % side, (done - 1) // side,
+                                                                      force, slope)
+        excess = -slope * force - self.values["c"]
+        if force > 5000:
+            return "refused", line + "error=out-of-scale"
+        is_loud = excess > 0
+        is_growing = 0 < excess < 50
+        verdict = "watch" if 0 < excess < 9 else "squeal" if is_loud else "quiet"
+        return verdict, line + (
+            "propensity=%s class=%s period=%d amplitude_um=%.9g velocity_mm_s=%.9g frequency_hz=2000 growth_per_s=%s "
+            "predicted=%s predicted_growth_per_s=%.9g end=%s periods=400" %
+            (verdict, "growing" if is_growing else "limitcycle-stickslip-p1" if is_loud else "rest", is_loud,
+             0.5 if is_growing else 8 + excess / 500 if is_loud else 0.001, 100 if is_loud else 0.01,
+             "nan" if not is_loud else "%.9g" % excess, "squeal" if is_loud else "quiet", excess / 0.6,
+             "whole" if is_growing else "squealed" if is_loud else "decayed"))
+
+    def do_scan(self, words):
+        (x_from, x_to), side = map(float, words[1:3]), int(words[3])
+        y_from, y_to = map(float, words[5:7])
+        share = [place / max(side - 1, 1) for place in range(side)]
+        tally = dict.fromkeys(("trials", "unknown", "quiet", "watch", "squeal", "refused", "diverged"), 0)
+        for done in range(1, side * side + 1):
+            is_stopped = self.options.slow and bool(select.select([sys.stdin], [], [], 0.1)[0])
+            if is_stopped or tally["trials"] == self.options.cut:
+                counts = " ".join("%s=%d" % pair for pair in tally.items())
+                raise Refused("error stopped %s: stopped before the end" % counts)
+            verdict, line = self.point(done, side * side, side, x_from + (x_to - x_from) * share[(done - 1) % side],
+                                       y_from + (y_to - y_from) * share[(done - 1) // side])
+            tally["trials"] += 1
+            tally[verdict] += 1
+            if done == self.options.blur:
+                line = line.replace("j=", "j=9")
+            if done != self.options.lose:
+                self.say(line)
+        self.answer("scan", **tally, caps=3, saturations=0, steps=25600 * side * side)
+
     def do(self, line):
         name, *words = line.split()
         if name == "echo":
@@ -215,6 +258,8 @@ class Firmware:
                         states=4, spp=self.spp())
         elif name in ("defaults", "reset", "preset"):
             self.values = dict(DEFAULTS) if name != "reset" else self.values
+            if words == ["brake"]:
+                self.values["c"] = 120.0
             self.step = 0
             self.answer(name, generation=1)
         elif name == "get":
@@ -223,6 +268,7 @@ class Firmware:
             getattr(self, "do_" + name)(words)
 
     def run(self):
+        is_mute = False
         self.say("squeal, a fake")
         for line in sys.stdin:
             line = line.strip()
@@ -234,7 +280,8 @@ class Firmware:
             if self.options.die and line.startswith(self.options.die):
                 sys.stderr.write("fake: first complaint\nfake: the kernel image is gone\n")
                 sys.exit(3)
-            if self.options.mute and line.startswith(self.options.mute):
+            is_mute = is_mute or bool(self.options.mute) and line.startswith(self.options.mute)
+            if is_mute:
                 continue
             try:
                 if self.options.refuse and line.startswith(self.options.refuse):
@@ -250,7 +297,9 @@ def main():
         parser.add_argument(name)
     for name in ("--skew", "--say"):
         parser.add_argument(name, action="append")
-    for name in ("--flood", "--gap", "--hide", "--speechless", "--emulated", "--version"):
+    for name in ("--lose", "--blur", "--cut"):
+        parser.add_argument(name, type=int)
+    for name in ("--slow", "--flood", "--gap", "--hide", "--speechless", "--emulated", "--version"):
         parser.add_argument(name, action="store_true")
     options = parser.parse_args()
     if options.version:

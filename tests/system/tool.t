@@ -210,10 +210,129 @@ def sound_of(path):
     return rate, points, (len(ups) - 1) * rate / (ups[-1] - ups[0])
 
 
+def read_until(file, text):
+    """What a pipe or terminal says up to that, or to its end."""
+    said = b""
+    while text is None or text not in said:
+        try:
+            more = os.read(file, 1024)
+        except OSError:
+            more = b""
+        if not more:
+            break
+        said += more
+    return said
+
+
+def map_tests(tap, out, story):
+    def the_map(*fake, more=(), env={**os.environ, "PATH": out + "/nothing"}):
+        return story(*fake, more=("--acts", "1", "--points", "6", *more), env=env)
+
+    def record():
+        with open(out + "/run.json") as file:
+            return json.load(file)["map"]
+
+    def table():
+        with open(out + "/map.csv", newline="") as file:
+            return list(csv.DictReader(file))
+
+    def names():
+        return [name for name in os.listdir(out) if name.startswith("map")]
+
+    run = story(more=("--acts", "1", "--points", "0"))
+    tap.ok(run.returncode == 0 and "map:" not in run.stdout and not names() and record() is None, "no map where none is asked for",
+           run)
+    run = the_map(env=None)
+    tap.ok(run.returncode == 0, "a map", run)
+    rows = table()
+    tap.ok(list(rows[0]) == "done,of,i,j,N1[N],alpha[s/m],propensity,class,period,amplitude[um],velocity[mm/s],frequency[Hz],"
+           "growth[1/s],predicted,predicted_growth[1/s],end,periods,error".split(","), "map.csv has every field, with its unit")
+    tap.ok([int(row["done"]) for row in rows] == list(range(1, 37)) and
+           [(row["i"], row["j"]) for row in rows[5:8]] == [("5", "0"), ("0", "1"), ("1", "1")], "and every point")
+    tap.ok(rows[5]["error"] == "out-of-scale" and rows[5]["propensity"] == "", "a refused point has its reason, and no more")
+    tap.ok("squeal               14 points, amplitude 8.12 to 8.83 um" in run.stdout and
+           "watch                1 point," in run.stdout and "quiet                15 points" in run.stdout and
+           "still growing        3 points" in run.stdout, "counts by verdict are told", run)
+    tap.ok("|alpha| N = c        right at 29 points, wrong at 0" in run.stdout and
+           "prediction           right at 29 points, wrong at 0" in run.stdout and "a point\n" in run.stdout,
+           "and how right the rules were", run)
+    tap.ok("refused              6\n" in run.stdout and "three 3\n" in run.stdout and "saturations" not in run.stdout,
+           "and what should have been nothing", run)
+    known = record()
+    tap.ok(known["complete"] and (known["points"], known["points_missing"], known["squeal"], known["refused"]) == (36, 0, 14, 6) and
+           known["command"] == "scan N1 650 5400 6 alpha -0.12 -0.006 6 transient 1000" and known["axes"][1]["unit"] == "s/m" and
+           known["parameters_si"]["c"] == 120 and known["counted_by_the_device"]["steps"] == 25600 * 36 and
+           known["wall_s_a_point"] > 0, "run.json has the map", run)
+    told = [int(line.split()[0]) for line in run.stdout.splitlines() if " of 36 points, " in line]
+    tap.ok(told == [4, 8, 11, 15, 18, 22, 26, 29, 33] and "\r" not in run.stdout + run.stderr,
+           "without a terminal the progress is a line for every tenth", run)
+    if shutil.which("gnuplot"):
+        tap.ok(all(os.path.getsize("%s/map.%s" % (out, kind)) > 10000 for kind in ("svg", "png")), "its picture", run)
+        with open(out + "/map.svg", encoding="utf-8") as file:
+            text = file.read()
+        tap.ok("\u03b1" in text and "[\u00b5m]" in text and "30 trials" not in text and "36 trials" in text and
+               "board fake" in text, "says what it shows", run)
+
+    master, slave = os.openpty()
+    run = subprocess.Popen([TOOL, "run", "--board", "fake", "--out", out, "--acts", "1", "--points", "6", "--", *FAKE, "--slow"],
+                           stdout=subprocess.PIPE, stderr=slave, stdin=subprocess.DEVNULL, universal_newlines=True,
+                           env={**os.environ, "PATH": out + "/nothing"})
+    os.close(slave)
+    shown = read_until(master, b"#")
+    run.send_signal(signal.SIGINT)
+    stdout = run.communicate(timeout=LIMIT_S)[0]
+    shown = (shown + read_until(master, None)).decode()
+    os.close(master)
+    tap.ok(shown.startswith("\r[") and " of 36 points, " in shown and " s left" in shown, "on a terminal it is a bar in place")
+    known = record()
+    cut = int(shown.split("the map was cut short: ")[1].split()[0]) if "cut short" in shown else 0
+    tap.ok(run.returncode == 1 and 0 < cut < 36 and "written" in stdout and " of 36 points, " not in stdout,
+           "Ctrl-C ends the map in words, and the story after it")
+    tap.ok(len(table()) == cut == known["points"] and not known["complete"] and
+           known["counted_by_the_device"]["trials"] == cut, "what had come by then is kept")
+
+    pid_file = out + "/pid"
+    run = subprocess.Popen([TOOL, "run", "--board", "fake", "--out", out, "--acts", "1", "--points", "6", "--limit", "9", "--",
+                            *FAKE, "--mute", "scan", "--pid-file", pid_file], stdout=subprocess.PIPE, stderr=subprocess.DEVNULL,
+                           stdin=subprocess.DEVNULL)
+    read_until(run.stdout.fileno(), b"each from its start")
+    time.sleep(0.2)
+    run.send_signal(signal.SIGINT)
+    time.sleep(0.2)
+    is_held = run.poll() is None
+    run.send_signal(signal.SIGINT)
+    run.communicate(timeout=LIMIT_S)
+    with open(pid_file) as file:
+        tap.ok(is_held and run.returncode == -signal.SIGINT and not is_running(int(file.read())),
+               "a second Ctrl-C does not wait for the device")
+
+    run = the_map("--lose", "8")
+    tap.ok(run.returncode == 1 and "the map: 1 of 36 points never came" in run.stderr and len(table()) == 35 and
+           record()["points_missing"] == 1, "a lost point is an error", run)
+    run = the_map("--blur", "8")
+    tap.ok(run.returncode == 1 and "the map: 1 line is no point of it" in run.stderr and
+           "1 of 36 points never came" in run.stderr, "a damaged one too", run)
+    run = the_map("--say", "quiet=12")
+    tap.ok(run.returncode == 1 and "not those that the device counted" in run.stderr and not record()["complete"],
+           "so are counts of the device that differ", run)
+    run = the_map("--cut", "10")
+    tap.ok(run.returncode == 1 and "the map was cut short: 10 of 36 points" in run.stderr and len(table()) == 10,
+           "a map that the device cuts short", run)
+    run = the_map("--refuse", "scan")
+    tap.ok(run.returncode == 1 and "'scan N1 650 5400 6 alpha" in run.stderr and "was answered: error not-served" in run.stderr and
+           record()["points"] == 0 and not names(), "a refused map", run)
+    run = the_map("--die", "scan")
+    tap.ok(run.returncode == 1 and "the map: the firmware ended with exit code 3" in run.stderr, "a firmware that dies at it", run)
+    run = the_map("--slow", more=("--limit", "3"))
+    tap.ok(run.returncode == 0, "the limit is for each point, not for the map", run)
+    run = the_map("--mute", "scan", more=("--limit", "1"))
+    tap.ok(run.returncode == 1 and "the firmware was silent for 1 s" in run.stderr, "a firmware silent at it", run)
+
+
 def run_tests(tap, folder):
     out = folder + "/run"
 
-    def story(*fake, more=("--acts", "2,5"), env=None):
+    def story(*fake, more=("--acts", "2,5", "--points", "0"), env=None):
         return subprocess.run([TOOL, "run", "--board", "fake", "--out", out, "--limit", "20", *more, "--", *FAKE, *fake],
                               stdout=subprocess.PIPE, stderr=subprocess.PIPE, stdin=subprocess.DEVNULL,
                               universal_newlines=True, timeout=LIMIT_S, env=env)
@@ -289,12 +408,17 @@ def run_tests(tap, folder):
     run = tool("run", "--board", "fake", "--out", folder + "/a/b", "--", *FAKE)
     tap.ok(run.returncode == 1 and run.stderr == "squeal: %s/a/b: No such file or directory\n" % folder,
            "a missing folder", run)
+    os.remove(out + "/state.csv")
+    map_tests(tap, out, story)
     with open("/dev/full", "w") as full:
         run = subprocess.run([TOOL, "--help"], stdout=full, stderr=subprocess.PIPE, universal_newlines=True)
     tap.ok(run.returncode == 1 and "standard output: No space left on device" in run.stderr, "a full standard output")
     for acts in ("0", "6", "1,", "1;2", ""):
         tap.ok(tool("run", "--board", "b", "--out", out, "--acts", acts, "--", *FAKE).returncode == 2,
                "usage: --acts '%s'" % acts)
+    for points in ("-1", "257", "many"):
+        tap.ok(tool("run", "--board", "b", "--out", out, "--points", points, "--", *FAKE).returncode == 2,
+               "usage: --points " + points)
 
 
 def main():

@@ -17,6 +17,7 @@ struct child {
 
 static const int ending_signals[] = {SIGINT, SIGTERM, SIGHUP};
 static struct child children[CHILDREN_MAX];
+static volatile sig_atomic_t interrupt_is_held, interrupt_is_noted;
 
 static void child_kill(const struct child *child, int number)
 {
@@ -27,6 +28,10 @@ static void child_kill(const struct child *child, int number)
  */
 static void ending_handler(int number)
 {
+    if (number == SIGINT && interrupt_is_held != 0 && interrupt_is_noted == 0) {
+        interrupt_is_noted = 1;
+        return;
+    }
     for (int i = 0; i < CHILDREN_MAX; i++) {
         if (children[i].pid != 0) {
             child_kill(&children[i], children[i].own_group ? SIGKILL : SIGTERM);
@@ -112,6 +117,16 @@ pid_t children_fork(bool own_group)
     (void)sigprocmask(SIG_SETMASK, &before, NULL);
     return pid;
 }
+
+void children_hold_interrupt(bool is_held)
+{
+    if (is_held) {
+        interrupt_is_noted = 0;
+    }
+    interrupt_is_held = is_held ? 1 : 0;
+}
+
+bool children_is_interrupted(void) { return interrupt_is_noted != 0; }
 
 /* Reaps under blocked signals: between waitpid and the removal the handler would meet a number that is no longer ours.
  */

@@ -13,6 +13,13 @@ void children_guard(void);
  * starts ends with it. In the child the list is empty and signals are as they were before children_guard. */
 pid_t children_fork(bool own_group);
 
+/* While it is held, the first SIGINT is only noted, so that what is under way can be ended in words; another one takes the
+ * usual course. */
+void children_hold_interrupt(bool is_held);
+
+/* Was one noted since the last children_hold_interrupt(true)? */
+bool children_is_interrupted(void);
+
 /* Waits at most patience_ms for the process to end by itself, then asks it to, then kills it. Returns the status that
  * waitpid gave. */
 int children_end(pid_t pid, int patience_ms);

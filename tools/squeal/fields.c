@@ -2,6 +2,7 @@
 #include "fields.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -51,4 +52,15 @@ double fields_number(const char *line, const char *key)
         return (double)NAN;
     }
     return value;
+}
+
+void fields_append_line(char **text, const char *line)
+{
+    const size_t used = *text == NULL ? 0 : strlen(*text);
+    char *longer = realloc(*text, used + strlen(line) + 2);
+
+    if (longer != NULL) {
+        (void)sprintf(longer + used, "%s%s", used > 0 ? "\n" : "", line);
+        *text = longer;
+    }
 }

@@ -15,4 +15,8 @@ double fields_number(const char *line, const char *key);
 /* Reads all of text as one number; false for anything else, an empty text included. nan counts as a number. */
 bool fields_parse(const char *text, double *value);
 
+/* Adds a line to a growing text on the heap, with LF before it unless it is the first. Out of memory the text stays as
+ * it was. */
+void fields_append_line(char **text, const char *line);
+
 #endif

@@ -33,6 +33,7 @@ static const char help[] = "usage: squeal-tool golden --cases IN.csv --out OUT [
                            "run     has the device tell its story; writes samples, pictures, sound and a record\n"
                            "  --board NAME     name of the board, for the record\n"
                            "  --acts LIST      acts to run, such as 2 or 1,3,5 (1,2,3,4,5)\n"
+                           "  --points N       points of the map along each axis; 0 for no map (20)\n"
                            "  --limit S        seconds that one answer may take (600)\n"
                            "\n"
                            "examples:\n"

@@ -6,7 +6,6 @@
 
 #include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 #define SOUND_LEAST_S 0.55    /* of physical time; a tone is hard to judge in less */
@@ -33,24 +32,16 @@ bool play_is_stop(const struct act *act)
            act->samples[act->count - 1].disc_m_per_s < (1.0 - DISC_SLOWS) * act->samples[act->start].disc_m_per_s;
 }
 
-/* Adds a line to a growing text, with LF before it unless it is the first. */
-static void text_append(char **text, const char *line)
-{
-    const size_t used = *text == NULL ? 0 : strlen(*text);
-    char *longer = realloc(*text, used + strlen(line) + 2);
-
-    if (longer != NULL) {
-        (void)sprintf(longer + used, "%s%s", used > 0 ? "\n" : "", line);
-        *text = longer;
-    }
-}
-
 /* Everything that the device says besides its answers. */
 static void listen(void *context, enum session_line kind, const char *text)
 {
     struct story *story = context;
     struct act *act = story->record.act;
 
+    if (story->map.is_open) {
+        map_listen(&story->map, kind, text);
+        return;
+    }
     switch (kind) {
     case SESSION_HEADER:
         record_header(&story->record, text);
@@ -66,7 +57,7 @@ static void listen(void *context, enum session_line kind, const char *text)
             break;
         }
         if (strncmp(story->session.command, "list", 4) == 0) {
-            text_append(&act->parameters, text);
+            fields_append_line(&act->parameters, text);
         } else if (strncmp(text, "verdict ", 8) == 0) {
             (void)strcpy(act->verdict, text + 8);
             act->has_verdict = true;
@@ -81,8 +72,7 @@ static void listen(void *context, enum session_line kind, const char *text)
     }
 }
 
-/* Sends one line that must be answered ok. */
-static bool must(struct story *story, const char *line)
+bool play_must(struct story *story, const char *line)
 {
     switch (session_command(&story->session, story->limit_s, "%s", line)) {
     case SESSION_OK:
@@ -105,7 +95,7 @@ static bool stream_start(struct story *story, struct act *act)
 
     for (double tick_hz = TICK_FASTEST_HZ; tick_hz >= TICK_SLOWEST_HZ; tick_hz *= TICK_RATIO) {
         (void)snprintf(line, sizeof line, "set tick %.0f substeps 1", tick_hz);
-        if (!must(story, line)) {
+        if (!play_must(story, line)) {
             return false;
         }
         const enum session_result result =
@@ -135,7 +125,7 @@ static bool prolong(struct story *story, struct act *act)
     const struct sample *last = &act->samples[act->count - 1];
     const double step_s = (last->t_s - first->t_s) / (last->step - first->step);
     (void)snprintf(line, sizeof line, "step %.0f", ceil(left_s / step_s));
-    return must(story, line);
+    return play_must(story, line);
 }
 
 /* Samples that the step column shows to be missing: before the first one, in gaps, and after the last one. */
@@ -167,13 +157,13 @@ static bool act_play(struct story *story, struct act *act)
     char line[SESSION_COMMAND_MAX];
 
     story->record.act = act;
-    if (!must(story, "status")) {
+    if (!play_must(story, "status")) {
         return false;
     }
     (void)fields_text(story->session.answer, "hash", act->first_hash, sizeof act->first_hash);
     (void)snprintf(line, sizeof line, "demo %d", act->number);
-    if (!stream_start(story, act) || !must(story, line) || !prolong(story, act) || !must(story, "stream off") ||
-        !must(story, "status")) {
+    if (!stream_start(story, act) || !play_must(story, line) || !prolong(story, act) ||
+        !play_must(story, "stream off") || !play_must(story, "status")) {
         return false;
     }
     (void)strcpy(act->status, story->session.answer);
@@ -181,7 +171,7 @@ static bool act_play(struct story *story, struct act *act)
     if (!act->has_verdict) {
         story_fail(story, "act %d came without a verdict", act->number);
     }
-    act->is_done = must(story, "list");
+    act->is_done = play_must(story, "list");
     return act->is_done;
 }
 
@@ -216,7 +206,7 @@ static void acts_play(struct story *story)
     const size_t wanted = story->act_count;
 
     story->act_count = 0;
-    if (!must(story, "id")) {
+    if (!play_must(story, "id")) {
         return;
     }
     (void)strcpy(story->id, story->session.answer);
@@ -228,6 +218,10 @@ static void acts_play(struct story *story)
         if (!act_play(story, &story->acts[story->act_count++])) {
             return;
         }
+    }
+    story->record.act = NULL;
+    if (story->map.side > 0) {
+        map_play(story);
     }
 }
 

@@ -4,9 +4,12 @@
 
 #include "story.h"
 
-/* Starts the firmware and plays the story's acts on it, printing the device's words as they come. Afterwards act_count
- * is the number of acts that were begun. */
+/* Starts the firmware, plays the story's acts on it and has it make the map, printing the device's words as they come.
+ * Afterwards act_count is the number of acts that were begun. */
 void play_all(struct story *story);
+
+/* Sends one line that must be answered ok; what else comes is reported as a failure of the story. */
+bool play_must(struct story *story, const char *line);
 
 /* Does the act end in a squeal that can be heard? */
 bool play_is_audible(const struct act *act);

@@ -17,22 +17,21 @@ static struct plot_unit unit_for(double size, const char *names[3])
 
 struct plot_unit plot_unit_of_length(double size)
 {
-    const char *names[3] = {"m", "mm", "{/Symbol m}m"};
+    const char *names[3] = {"m", "mm", PLOT_MICRO "m"};
 
     return unit_for(size, names);
 }
 
 struct plot_unit plot_unit_of_speed(double size)
 {
-    const char *names[3] = {"m/s", "mm/s", "{/Symbol m}m/s"};
+    const char *names[3] = {"m/s", "mm/s", PLOT_MICRO "m/s"};
 
     return unit_for(size, names);
 }
 
 bool plot_is_possible(void) { return system("command -v gnuplot >/dev/null 2>&1") == 0; }
 
-/* The text as gnuplot may print it: quotes and the marks of its enhanced text are replaced. */
-static const char *plain(const char *text, char out[SESSION_LINE_MAX])
+const char *plot_plain(const char *text, char out[SESSION_LINE_MAX])
 {
     size_t i = 0;
 
@@ -49,8 +48,8 @@ void plot_title_write(FILE *script, const struct act *act)
 
     (void)fields_text(act->verdict, "class", class, sizeof class);
     (void)fields_text(act->verdict, "frequency_hz", frequency, sizeof frequency);
-    (void)fprintf(script, "set title offset 0,1.3 \"%s", plain(act->title, words));
-    (void)fprintf(script, "\\n{/*0.8 %s", plain(class, words));
+    (void)fprintf(script, "set title offset 0,1.3 \"%s", plot_plain(act->title, words));
+    (void)fprintf(script, "\\n{/*0.8 %s", plot_plain(class, words));
     if (frequency[0] != '\0' && strcmp(frequency, "nan") != 0) {
         (void)fprintf(script, ", %.5g Hz", fields_number(act->verdict, "frequency_hz"));
     }
@@ -73,8 +72,10 @@ void plot_picture_start(FILE *script, const struct story *story, const char *nam
     char path[STORY_PATH_SIZE], file[64];
 
     (void)snprintf(file, sizeof file, "%s.%s", name, is_svg ? "svg" : "png");
-    (void)fprintf(script, "reset\nset terminal %s size 1200,900 font 'Helvetica,%d' enhanced background 'white'\n",
-                  is_svg ? "svg" : "pngcairo", is_svg ? 20 : 18);
+    (void)fprintf(
+        script,
+        "reset\nset encoding utf8\nset terminal %s size 1200,900 font 'Helvetica,%d' enhanced background 'white'\n",
+        is_svg ? "svg" : "pngcairo", is_svg ? 20 : 18);
     (void)fputs("set output ", script);
     path_write(script, story_path(story, path, file));
     (void)fputs("\nset border 3 lc rgb '#606060'\nset tics nomirror out\nset grid lc rgb '#ececec' lt 1\n"

@@ -14,4 +14,7 @@ void plot_phase(struct story *story, const struct act *act);
 /* stop-envelope.svg and .png: displacement over time while the disc slows down, its speed, and the verdict as bands. */
 void plot_stop(struct story *story, const struct act *act);
 
+/* map.svg and .png: where the brake squeals and how far it swings there, with the two borders that are said of it. */
+void plot_map(struct story *story);
+
 #endif

@@ -12,6 +12,10 @@
 #define PLOT_COLOUR_WATCH "#fff4d6"
 #define PLOT_COLOUR_SQUEAL "#f9dede"
 
+/* In UTF-8. A letter of a symbol font would be read as another one where that font is missing: mm for micrometres. */
+#define PLOT_MICRO "\302\265"
+#define PLOT_ALPHA "\316\261"
+
 /* A unit that makes a quantity readable. */
 struct plot_unit {
     double factor;
@@ -30,6 +34,9 @@ FILE *plot_script_open(struct story *story);
 
 /* Begins the picture called name in one of its two formats, with the look that all share. */
 void plot_picture_start(FILE *script, const struct story *story, const char *name, bool is_svg);
+
+/* The text as gnuplot may print it: quotes and the marks of its enhanced text are replaced. */
+const char *plot_plain(const char *text, char out[SESSION_LINE_MAX]);
 
 /* The act's title, and under it what motion it ended in. */
 void plot_title_write(FILE *script, const struct act *act);

@@ -37,7 +37,7 @@ void record_header(struct record *record, const char *text)
     }
 }
 
-static bool propensity_read(const char *text, enum propensity *propensity)
+bool record_propensity(const char *text, enum propensity *propensity)
 {
     static const char *const names[] = {"unknown", "quiet", "watch", "squeal"};
 
@@ -79,7 +79,7 @@ static bool sample_read(const char *text, struct sample *sample)
         return false;
     }
     sample->disc_m_per_s = vr + sample->xd_m_per_s;
-    return propensity_read(cells[COLUMN_PROPENSITY], &sample->propensity);
+    return record_propensity(cells[COLUMN_PROPENSITY], &sample->propensity);
 }
 
 static bool sample_keep(struct act *act, const struct sample *sample)

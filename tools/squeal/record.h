@@ -60,6 +60,9 @@ void record_header(struct record *record, const char *text);
 /* Takes one line of a stream. */
 void record_sample(struct record *record, const char *text);
 
+/* Reads a propensity by its name or number; false if it is none. */
+bool record_propensity(const char *text, enum propensity *propensity);
+
 /* Closes the file; false with the problem set if anything was not written or a sample was not understood. */
 bool record_close(struct record *record);
 

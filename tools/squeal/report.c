@@ -134,6 +134,43 @@ static void act_write(FILE *file, const struct act *act)
     (void)fputc('}', file);
 }
 
+static void rule_write(FILE *file, const char *name, const struct map_rule *rule)
+{
+    (void)fprintf(file, ",\n    \"%s\": {\"agree\": %zu, \"differ\": %zu}", name, rule->agree, rule->differ);
+}
+
+static void map_record(FILE *file, const struct map *map)
+{
+    const struct map_counts counts = map_count(map);
+
+    (void)fputs("{\"preset\": ", file);
+    string_write(file, map_plan.preset, strlen(map_plan.preset));
+    (void)fputs(", \"command\": ", file);
+    string_write(file, map->command, strlen(map->command));
+    (void)fprintf(file, ", \"complete\": %s,\n    \"axes\": [", map->is_whole ? "true" : "false");
+    for (int i = 0; i < MAP_AXES; i++) {
+        const struct map_axis *axis = &map_plan.axes[i];
+        (void)fprintf(file, "%s{\"symbol\": \"%s\", \"unit\": \"%s\", \"from\": %g, \"to\": %g, \"points\": %zu}",
+                      i > 0 ? ", " : "", axis->symbol, axis->unit, axis->from, axis->to, map->side);
+    }
+    (void)fprintf(file, "], \"transient_periods\": %d,\n    \"points\": %zu, \"points_missing\": %zu",
+                  map_plan.transient_periods, map->came, map_missing(map));
+    (void)fprintf(file, ", \"quiet\": %zu, \"watch\": %zu, \"squeal\": %zu, \"unknown\": %zu, \"refused\": %zu",
+                  counts.by_propensity[PROPENSITY_QUIET], counts.by_propensity[PROPENSITY_WATCH],
+                  counts.by_propensity[PROPENSITY_SQUEAL], counts.by_propensity[PROPENSITY_UNKNOWN], counts.refused);
+    (void)fputs(",\n    \"counted_by_the_device\": ", file);
+    fields_write(file, map->answer);
+    rule_write(file, "alpha_N_above_c", &counts.line);
+    rule_write(file, "predictor", &counts.predictor);
+    (void)fprintf(file, ",\n    \"wall_s\": %.3f, \"wall_s_a_point\": ", map->wall_s);
+    (void)fprintf(file, map->came > 0 ? "%.5f" : "null", map->wall_s / (double)map->came);
+    (void)fputs(",\n    \"parameters_si\": ", file);
+    parameters_write(file, map->parameters);
+    (void)fputs(",\n    \"status\": ", file);
+    fields_write(file, map->status);
+    (void)fputc('}', file);
+}
+
 void report_write(struct story *story)
 {
     char path[STORY_PATH_SIZE], problem[CSV_PROBLEM_MAX];
@@ -158,7 +195,13 @@ void report_write(struct story *story)
         act_write(file, &story->acts[i]);
         (void)fputs(i + 1 < story->act_count ? ",\n" : "\n", file);
     }
-    (void)fputs("  ]\n}\n", file);
+    (void)fputs("  ],\n  \"map\": ", file);
+    if (story->map.points == NULL) {
+        (void)fputs("null", file);
+    } else {
+        map_record(file, &story->map);
+    }
+    (void)fputs("\n}\n", file);
     if (!csv_close(file, path, problem)) {
         story_fail(story, "%s", problem);
         return;

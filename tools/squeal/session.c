@@ -3,6 +3,7 @@
 #include "session.h"
 
 #include "children.h"
+#include "clock.h"
 
 #include <ctype.h>
 #include <errno.h>
@@ -13,7 +14,6 @@
 #include <stdio.h>
 #include <string.h>
 #include <sys/wait.h>
-#include <time.h>
 #include <unistd.h>
 
 enum {
@@ -22,14 +22,6 @@ enum {
     OPEN_TRIES = 3,          /* a line may be damaged by what stood in the firmware's receiver before */
     READ_SIZE = 16384
 };
-
-static double now_s(void)
-{
-    struct timespec now;
-
-    (void)clock_gettime(CLOCK_MONOTONIC, &now);
-    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
-}
 
 static void close_end(int *end)
 {
@@ -152,18 +144,25 @@ static enum session_result lose_dead(struct session *session)
 /* Sends the text and takes what comes until the answer, the end of the firmware, or the limit. */
 static enum session_result talk(struct session *session, const char *text, size_t length, double limit_s)
 {
-    const double end_s = now_s() + limit_s;
-    double heard_s = now_s();
+    static const char stop[] = "stop\n";
+    double heard_s = clock_now_s(), end_s = heard_s + limit_s;
     size_t sent = 0;
+    bool is_stopping = false;
     char bytes[READ_SIZE];
 
     for (;;) {
+        if (session->is_unwanted != NULL && session->is_unwanted() && sent == length && !is_stopping) {
+            is_stopping = true;
+            text = stop;
+            length = sizeof stop - 1;
+            sent = 0;
+        }
         struct pollfd ends[3] = {{.fd = session->output, .events = POLLIN},
                                  {.fd = session->errors, .events = POLLIN},
                                  {.fd = sent < length ? session->input : -1, .events = POLLOUT}};
-        const double left_s = end_s - now_s();
+        const double left_s = end_s - clock_now_s();
         if (left_s <= 0.0) {
-            const double silent_s = now_s() - heard_s;
+            const double silent_s = clock_now_s() - heard_s;
             return silent_s > 0.5 * limit_s
                        ? lose(session, "the firmware was silent for %.0f s after '%s'", silent_s, session->command)
                        : lose(session, "the firmware did not answer '%s' within %g s", session->command, limit_s);
@@ -179,7 +178,8 @@ static enum session_result talk(struct session *session, const char *text, size_
             if (count == 0 || (count < 0 && errno != EAGAIN && errno != EINTR)) {
                 return lose_dead(session);
             }
-            heard_s = now_s();
+            heard_s = clock_now_s();
+            end_s = session->is_patient ? heard_s + limit_s : end_s;
             if (count > 0 && bytes_take(session, bytes, (size_t)count)) {
                 return strncmp(session->answer, "ok", 2) == 0 ? SESSION_OK : SESSION_REFUSED;
             }

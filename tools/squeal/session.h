@@ -2,6 +2,7 @@
 #ifndef SQUEAL_SESSION_H
 #define SQUEAL_SESSION_H
 
+#include <stdbool.h>
 #include <stddef.h>
 #include <sys/types.h>
 
@@ -34,6 +35,8 @@ struct session {
     int errors;
     session_listener listener;
     void *context;
+    bool is_patient;           /* whatever the firmware says gives its answer the whole limit again */
+    bool (*is_unwanted)(void); /* asked while an answer is awaited, if not NULL; see session_command */
     char command[SESSION_COMMAND_MAX + 2];
     char line[SESSION_LINE_MAX]; /* the line being received */
     size_t line_length;
@@ -48,7 +51,8 @@ struct session {
 enum session_result session_open(struct session *session, char *const argv[], session_listener listener, void *context);
 
 /* Sends one line and waits at most limit_s for its answer. While it waits it takes whatever the firmware says, so the
- * two never block each other. */
+ * two never block each other. If the answer becomes unwanted, one "stop" is sent behind the line; its own answer is not
+ * waited for, so that only session_close is left then. */
 enum session_result session_command(struct session *session, double limit_s, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 

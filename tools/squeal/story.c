@@ -1,4 +1,4 @@
-/* The flow of the story: one conversation, act after act, then sound, pictures and the record. */
+/* The flow of the story: one conversation, act after act and the map, then sound, pictures and the record. */
 #include "story.h"
 
 #include "options.h"
@@ -79,6 +79,7 @@ static void pictures_draw(struct story *story)
             plot_stop(story, &story->acts[i]);
         }
     }
+    plot_map(story);
 }
 
 /* Steps from one sample to the next, by act. The line is what a run waits for, so no act is sampled finer than its picture
@@ -113,12 +114,14 @@ static int story_run(struct story *story)
         story_fail(story, "%s", story->record.problem);
         return EXIT_FAILED;
     }
+    map_forget(story);
     play_all(story);
     if (record_close(&story->record)) {
         story_wrote(story, path, "the samples of every act");
     } else {
         story_fail(story, "%s", story->record.problem);
     }
+    map_write(story);
     report_write(story);
     sound_write(story);
     pictures_draw(story);
@@ -129,8 +132,8 @@ static int story_run(struct story *story)
 int story_main(int argc, char **argv)
 {
     struct story *story = calloc(1, sizeof *story);
-    const char *acts = "1,2,3,4,5", *limit = "600";
-    long limit_s = 0;
+    const char *acts = "1,2,3,4,5", *points = NULL, *limit = "600";
+    long limit_s = 0, side = MAP_SIDE;
     int code = EXIT_USAGE;
 
     if (story == NULL) {
@@ -138,20 +141,22 @@ int story_main(int argc, char **argv)
         return EXIT_FAILED;
     }
     const struct option options[] = {
-        {"--board", &story->board, NULL, true},
-        {"--out", &story->out, NULL, true},
-        {"--acts", &acts, NULL, false},
-        {"--limit", &limit, NULL, false},
+        {"--board", &story->board, NULL, true}, {"--out", &story->out, NULL, true}, {"--acts", &acts, NULL, false},
+        {"--points", &points, NULL, false},     {"--limit", &limit, NULL, false},
     };
     story->command = options_read(options, sizeof options / sizeof options[0], argc, argv);
-    if (story->command != NULL && acts_read(story, acts) && options_whole("--limit", limit, 1, 86400, &limit_s)) {
+    if (story->command != NULL && acts_read(story, acts) &&
+        (points == NULL || options_whole("--points", points, 0, MAP_SIDE_MAX, &side)) &&
+        options_whole("--limit", limit, 1, 86400, &limit_s)) {
         story->limit_s = (double)limit_s;
+        story->map.side = (size_t)side;
         code = story_run(story);
     }
     for (size_t i = 0; i < RECORD_ACTS; i++) {
         free(story->acts[i].samples);
         free(story->acts[i].parameters);
     }
+    map_free(&story->map);
     free(story);
     return code;
 }

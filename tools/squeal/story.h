@@ -4,6 +4,7 @@
 
 #include <stdbool.h>
 
+#include "map.h"
 #include "record.h"
 #include "session.h"
 
@@ -17,6 +18,7 @@ struct story {
     struct record record;
     struct act acts[RECORD_ACTS];
     size_t act_count;
+    struct map map;
     char id[SESSION_LINE_MAX];
     char emulator[128]; /* first line of its --version; empty if the firmware runs without one */
     bool has_failed;

@@ -41,7 +41,7 @@ void tell_title(const struct story *story)
            story->emulator);
 }
 
-void tell_act(const char *title)
+static void heading_print(const char *title)
 {
     printf("\n%s\n", title);
     for (size_t i = strlen(title); i > 0; i--) {
@@ -49,6 +49,8 @@ void tell_act(const char *title)
     }
     (void)putchar('\n');
 }
+
+void tell_act(const char *title) { heading_print(title); }
 
 void tell_words(const char *text) { printf("%s\n", text); }
 
@@ -94,6 +96,73 @@ void tell_verdict(const char *fields)
             printf("%.4g%s%s\n", value, rows[i].unit[0] != '\0' ? " " : "", rows[i].unit);
         }
     }
+}
+
+void tell_map_start(const struct story *story)
+{
+    const struct map *map = &story->map;
+    const struct map_axis *force = &map_plan.axes[MAP_FORCE], *slope = &map_plan.axes[MAP_SLOPE];
+
+    heading_print("map: where does this brake squeal?");
+    printf("preset %s, N = %g to %g N, alpha = %g to %g s/m: %zu x %zu trials on the device,\n", map_plan.preset,
+           force->from, force->to, slope->from, slope->to, map->side, map->side);
+    printf("each from its start, up to %d normal periods and what it takes to measure the end\n",
+           map_plan.transient_periods);
+    (void)fflush(stdout);
+}
+
+static void points_print(const char *label, size_t points, const char *what)
+{
+    if (points > 0) {
+        printf("    %-20s %zu point%s%s\n", label, points, points == 1 ? "" : "s", what);
+    }
+}
+
+static void rule_print(const char *label, const struct map_rule *rule)
+{
+    printf("    %-20s right at %zu point%s, wrong at %zu\n", label, rule->agree, rule->agree == 1 ? "" : "s",
+           rule->differ);
+}
+
+/* What should be nothing, and is told where it is not. */
+static void troubles_print(const char *answer)
+{
+    static const struct {
+        const char *key, *label;
+    } troubles[] = {{"refused", "refused"},
+                    {"diverged", "diverged"},
+                    {"caps", "events beyond a step's three"},
+                    {"saturations", "saturations"}};
+
+    for (size_t i = 0; i < sizeof troubles / sizeof troubles[0]; i++) {
+        const double count = fields_number(answer, troubles[i].key);
+        if (count > 0.0) {
+            printf("    %-20s %.0f\n", troubles[i].label, count);
+        }
+    }
+}
+
+void tell_map(const struct story *story)
+{
+    const struct map *map = &story->map;
+    const struct map_counts counts = map_count(map);
+    char what[96] = ", all of them still growing";
+
+    if (map->came == 0) {
+        return;
+    }
+    if (counts.most_um >= counts.least_um) {
+        (void)snprintf(what, sizeof what, ", amplitude %.3g to %.3g um", counts.least_um, counts.most_um);
+    }
+    points_print("squeal", counts.by_propensity[PROPENSITY_SQUEAL], what);
+    points_print("watch", counts.by_propensity[PROPENSITY_WATCH], ", too little growth to tell yet");
+    points_print("quiet", counts.by_propensity[PROPENSITY_QUIET], "");
+    points_print("unknown", counts.by_propensity[PROPENSITY_UNKNOWN], "");
+    points_print("still growing", counts.growing, ", of squeal and watch");
+    rule_print("|alpha| N = c", &counts.line);
+    rule_print("prediction", &counts.predictor);
+    troubles_print(map->answer);
+    printf("    %-20s %.3g s, %.3g s a point\n", "time", map->wall_s, map->wall_s / (double)map->came);
 }
 
 void tell_files(const struct story *story)

@@ -18,6 +18,12 @@ void tell_notice(const char *text);
 /* The fields of a verdict, one a line. */
 void tell_verdict(const char *fields);
 
+/* What the map is about to try. */
+void tell_map_start(const struct story *story);
+
+/* What came of it. */
+void tell_map(const struct story *story);
+
 /* The files that were written. */
 void tell_files(const struct story *story);
 
