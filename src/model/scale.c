@@ -17,8 +17,7 @@ static struct params_problem blame(enum error error, const char *symbol, float l
 
 uint32_t scale_steps_per_period(const struct params *params) { return 16u << (uint32_t)params->steps_per_period; }
 
-/* How far roughness and run-out lift the brake force above its profile; exactly 1 without them. */
-static float peak_factor(const struct params *params)
+float scale_peak_factor(const struct params *params)
 {
     return 1.0f + (SCALE_ROUGHNESS_PEAK * params->roughness_ratio + params->runout_ratio);
 }
@@ -36,7 +35,7 @@ static float profile_peak_n(const struct params *params)
     }
 }
 
-float scale_load_peak_n(const struct params *params) { return profile_peak_n(params) * peak_factor(params); }
+float scale_load_peak_n(const struct params *params) { return profile_peak_n(params) * scale_peak_factor(params); }
 
 float scale_speed_peak_m_per_s(const struct params *params)
 {
@@ -78,7 +77,7 @@ static struct params_problem check_fit(const struct params *params, const struct
     const float stiffness_max = SCALE_STIFFNESS_MAX / (float)(1u << scale->length_shift);
 
     if (scale_load_peak_n(params) > scale->load_n) {
-        return blame(ERROR_OUT_OF_SCALE, "N0", 0.0f, scale->load_n / peak_factor(params));
+        return blame(ERROR_OUT_OF_SCALE, "N0", 0.0f, scale->load_n / scale_peak_factor(params));
     }
     if (scale_speed_peak_m_per_s(params) > scale->speed_m_per_s) {
         return blame(ERROR_OUT_OF_SCALE, "v0", -scale->speed_m_per_s, scale->speed_m_per_s);

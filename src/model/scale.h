@@ -61,6 +61,9 @@ uint32_t scale_steps_per_period(const struct params *params);
 float scale_load_peak_n(const struct params *params);
 float scale_speed_peak_m_per_s(const struct params *params);
 
+/* How far roughness and run-out lift the brake force above its profile; exactly 1 without them. [ANY] */
+float scale_peak_factor(const struct params *params);
+
 /* Relative amplitude that RK4 takes from an undamped normal oscillation in one period: 2 pi h^5/144. [ANY] */
 float scale_rk4_loss_per_period(const struct scale *scale);
 

@@ -56,6 +56,9 @@ void streaming_begin(struct console *console);
 /* Can the stream under way go on with this set's tick and substeps? If not, that has been answered. */
 bool streaming_admits(struct console *console, const struct params *params);
 
+/* a controller's part by hand, */
+void steering_obey(struct console *console);
+
 /* and the set. */
 void settings_list(struct console *console);
 void settings_get(struct console *console);

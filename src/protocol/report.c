@@ -165,11 +165,31 @@ static void write_prediction(struct text *text, const struct prediction *predict
     text_key_text(text, "bistable", prediction->is_bistable ? "yes" : "no");
 }
 
+/* What the closed form says of the set, or where a controller holds force or speed, of what it holds. */
+static struct prediction predict(const struct executive_report *report, const struct sim_plan *plan)
+{
+    struct params params = plan->params;
+
+    if (!report->input.holds_load && !report->input.holds_speed) {
+        return plan->prediction;
+    }
+    if (report->input.holds_load) {
+        params.load_profile = LOAD_CONSTANT;
+        params.load_n = report->input.load * plan->scale.load_n;
+    }
+    if (report->input.holds_speed) {
+        params.speed_profile = SPEED_CONSTANT;
+        params.speed_m_per_s = report->input.speed * plan->scale.speed_m_per_s;
+    }
+    return predictor_predict(&params, &plan->scale);
+}
+
 void report_write_verdict(struct text *text, const struct executive_report *report, const struct sim_plan *plan)
 {
     const struct report_verdict judged = report_judge(&report->verdict, &plan->scale);
     const struct scale *scale = &plan->scale;
     const struct params *params = &plan->params;
+    const struct prediction prediction = predict(report, plan);
     const float v10_steps = fmath_from_u64(report->v10_step) + (float)report->v10_fraction_q15 / 32768.0f;
 
     text_key_text(text, "propensity", detector_propensity_name(judged.propensity));
@@ -187,7 +207,7 @@ void report_write_verdict(struct text *text, const struct executive_report *repo
     report_field(text, "growth_error_per_s", judged.growth_error_per_s);
     report_field(text, "stick", judged.stick);
     report_field(text, "slipminus", judged.slip_minus);
-    write_prediction(text, &plan->prediction, scale);
+    write_prediction(text, &prediction, scale);
     report_field(text, "t_v10", report->has_v10 ? v10_steps * scale->step_s : NOT_A_NUMBER);
     report_field(text, "sigma", params->tick_hz * params->steps_per_tick * scale->step_s);
 }

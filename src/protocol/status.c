@@ -50,14 +50,20 @@ static void write_load(struct text *text, const struct executive_load *load)
     text_key_u64(text, "shed", load->shed);
 }
 
-static void write_counters(struct text *text, const struct console *console, const struct sim_counters *counters)
+static void write_counters(struct text *text, const struct console *console, const struct executive_report *report)
 {
+    const struct sim_counters *counters = &report->counters;
+
     text_key_u64(text, "drops", stream_drops(&console->stream, console->executive));
     text_key_u64(text, "caps", counters->caps);
     text_key_u64(text, "saturations", counters->saturations);
     text_key_u64(text, "events", counters->events);
     text_key_u64(text, "lifted", counters->lifted);
     text_key_u64(text, "gap_held", counters->gap_held);
+    text_key_u64(text, "inputs", report->inputs);
+    text_key_u64(text, "inputs_late", report->inputs_late);
+    text_key_u64(text, "inputs_clamped", console->executive->inputs_clamped);
+    text_key_u64(text, "inputs_refused", console->executive->inputs.dropped);
     text_key_u64(text, "rejected", console->rejected);
     text_key_u64(text, "garbage", console->line.garbage);
     text_key_u64(text, "uart_lost", console->uart_lost);
@@ -104,7 +110,7 @@ void status_write(struct text *text, const struct console *console, const struct
     report_field(text, "sigma", params->tick_hz * params->steps_per_tick * plan->scale.step_s);
     write_loss(text, plan);
     write_load(text, &report->load);
-    write_counters(text, console, &report->counters);
+    write_counters(text, console, report);
     text_key_hex32(text, "hash", report->now.hash);
     text_key_text(text, "fault", report->now.is_fault != 0u ? "domain" : "none");
     write_groups(text, plan);

@@ -24,6 +24,9 @@ static void write_report(struct executive *executive)
     report.v10_step = sim->v10_step;
     report.v10_fraction_q15 = sim->v10_fraction_q15;
     report.generation = publish_taken(&executive->publish);
+    report.input = sim->input;
+    report.inputs = executive->inputs_taken;
+    report.inputs_late = executive->inputs_late;
     handoff_write(&executive->handoff, &report);
     executive->until_report = TICKS_PER_REPORT;
 }
@@ -49,6 +52,9 @@ static void take_order(struct executive *executive)
     executive->in_force = *order;
     if (order->is_reset) {
         executive->load = (struct executive_load){0};
+        executive->inputs_taken = 0u;
+        executive->inputs_late = 0u;
+        executive->inputs_waiting.count = 0u;
         sim_reset(&executive->sim, &executive->in_force.plan);
     } else if (order->is_new_plan) {
         sim_apply(&executive->sim, &executive->in_force.plan);
@@ -60,6 +66,30 @@ static void take_order(struct executive *executive)
         executive->until_sample = order->sample_every;
     }
     write_report(executive);
+}
+
+/* New demands find their places. What belongs to the run before a reset is void. */
+static void collect_inputs(struct executive *executive)
+{
+    struct input input;
+
+    while (executive->inputs_waiting.count < INPUT_QUEUE_MAX && ring_pop(&executive->inputs, &input)) {
+        if (input.epoch == executive->in_force.epoch) {
+            input_queue_put(&executive->inputs_waiting, &input);
+        }
+    }
+}
+
+/* Those whose step has come. */
+static void take_inputs(struct executive *executive)
+{
+    struct input input;
+
+    while (input_queue_take(&executive->inputs_waiting, executive->sim.step, &input)) {
+        executive->inputs_taken++;
+        executive->inputs_late += input.step != INPUT_NOW && input.step < executive->sim.step ? 1u : 0u;
+        sim_input(&executive->sim, &input);
+    }
 }
 
 static uint32_t steps_due(const struct executive *executive)
@@ -84,7 +114,11 @@ bool executive_tick(struct executive *executive, bool is_due)
         return false;
     }
     steps = steps_due(executive);
+    collect_inputs(executive); /* none comes meanwhile */
     for (uint32_t i = 0u; i < steps; i++) {
+        if (executive->inputs_waiting.count != 0u) {
+            take_inputs(executive);
+        }
         has_news = sim_step(&executive->sim) || has_news;
         if (executive->in_force.sample_every != 0u && --executive->until_sample == 0u) {
             push_sample(executive);
@@ -214,6 +248,23 @@ void executive_measure(struct executive *executive, uint64_t steps)
     give_order(executive);
 }
 
+bool executive_input(struct executive *executive, const struct input_demand *demand, bool *is_clamped)
+{
+    const struct sim_plan *plan = &executive->draft.plan;
+    struct input input;
+    const bool was_clamped = input_derive(&input, demand, &plan->params, &plan->scale);
+
+    input.epoch = executive->draft.epoch;
+    if (!ring_push(&executive->inputs, &input)) {
+        return false;
+    }
+    executive->inputs_clamped += was_clamped ? 1u : 0u;
+    if (is_clamped != NULL) {
+        *is_clamped = was_clamped;
+    }
+    return true;
+}
+
 void executive_grant(struct executive *executive, uint32_t steps)
 {
     const uint32_t used = word_read(&executive->used);
@@ -270,6 +321,7 @@ void executive_init(struct executive *executive, int arithmetic)
     publish_init(&executive->publish, executive->orders, sizeof executive->orders[0]);
     handoff_init(&executive->handoff, &executive->report_store, sizeof executive->report_store);
     ring_init(&executive->samples, executive->sample_store, sizeof executive->sample_store[0], EXECUTIVE_SAMPLES);
+    ring_init(&executive->inputs, executive->input_store, sizeof executive->input_store[0], EXECUTIVE_INPUTS);
     params_default(&params);
     executive->arithmetic = (float)arithmetic;
     params.arithmetic = executive->arithmetic;

@@ -6,8 +6,9 @@
  *   executive_grant, executive_free_run - words -^        |          |
  *   executive_report  <------ latest value ---------------+          |
  *   ring_pop(&samples) <------ ring of samples -----------------------+
+ *   executive_input ---------- ring of inputs --> before the step each is for
  *
- * These are the only four ways across; each is listed in src/app/CONCURRENCY.md. */
+ * These are the only ways across; each is listed in src/app/CONCURRENCY.md. */
 #ifndef SIM_EXECUTIVE_H
 #define SIM_EXECUTIVE_H
 
@@ -21,6 +22,7 @@
 
 enum {
     EXECUTIVE_SAMPLES = 512,         /* records between interrupt and main */
+    EXECUTIVE_INPUTS = 8,            /* demands of a controller on their way to the interrupt */
     EXECUTIVE_GRANT_MAX = 1000000000 /* steps of credit at a time */
 };
 
@@ -57,6 +59,8 @@ struct executive_report {
     uint64_t v10_step;
     uint32_t v10_fraction_q15;
     uint32_t generation; /* of the order in force */
+    struct input_state input;
+    uint32_t inputs, inputs_late; /* demands taken since reset, and those of them whose step was past */
 };
 
 struct executive {
@@ -65,6 +69,8 @@ struct executive {
     struct executive_order in_force;     /* interrupt */
     uint32_t until_sample, until_report; /* interrupt */
     uint32_t to_shed;                    /* interrupt: ticks to skip after an overrun */
+    struct input_queue inputs_waiting;   /* interrupt: out of the ring, their steps not reached */
+    uint32_t inputs_taken, inputs_late;  /* interrupt */
 
     struct executive_order orders[2]; /* handed over by publish */
     struct publish publish;
@@ -72,6 +78,8 @@ struct executive {
     struct handoff handoff;
     struct sample sample_store[EXECUTIVE_SAMPLES];
     struct ring samples;
+    struct input input_store[EXECUTIVE_INPUTS];
+    struct ring inputs;
 
     /* single words, one writer each */
     struct word granted; /* main: steps granted so far */
@@ -82,6 +90,7 @@ struct executive {
     float arithmetic;             /* of the defaults on this board */
     struct executive_order draft; /* last order given */
     struct scale scales[2];       /* by epoch & 1, for samples that are still on their way */
+    uint32_t inputs_clamped;      /* demands held at a limit, since the start */
 };
 
 /* Starts with the defaults in the given number format (ARITH_F32 or ARITH_Q27), which is the board's; the plant stands at
@@ -106,6 +115,10 @@ void executive_stream(struct executive *executive, uint32_t every);
 
 /* Orders a measurement over n steps from here, without granting them. [MAIN] */
 void executive_measure(struct executive *executive, uint64_t steps);
+
+/* Hands over a controller's demand, to be taken before its step, in whatever order. A reset voids what waits, and the
+ * profiles act again. False if as many wait as can: nothing is handed over then, and the ring has counted it. *is_clamped (may be NULL) tells whether a limit held it. [MAIN] */
+bool executive_input(struct executive *executive, const struct input_demand *demand, bool *is_clamped);
 
 /* Credit: n more steps (at most EXECUTIVE_GRANT_MAX outstanding), endless, or none any more. [MAIN] */
 void executive_grant(struct executive *executive, uint32_t steps);

@@ -59,8 +59,10 @@ static void renew_texture(struct sim *sim, int32_t disc)
 static struct step_f32_input input_f32(struct sim *sim)
 {
     const struct sim_plan *plan = sim->plan;
-    struct step_f32_input input = {profile_value(&plan->load, sim->step), profile_value(&plan->speed, sim->step)};
+    struct step_f32_input input;
 
+    input.load = sim->input.holds_load ? sim->input.load : profile_value(&plan->load, sim->step);
+    input.speed = sim->input.holds_speed ? sim->input.speed : profile_value(&plan->speed, sim->step);
     if (plan->texture.is_active) {
         renew_texture(sim, (int32_t)(input.speed * (float)(1 << PLANT_FRACTION_BITS))); /* the speed is within 1 */
         input.load = texture_load_f32(input.load, sim->texture);
@@ -71,9 +73,10 @@ static struct step_f32_input input_f32(struct sim *sim)
 static struct step_q27_input input_q27(struct sim *sim)
 {
     const struct sim_plan *plan = sim->plan;
-    struct step_q27_input input = {profile_q27_value(&plan->load_q27, sim->step),
-                                   profile_q27_value(&plan->speed_q27, sim->step)};
+    struct step_q27_input input;
 
+    input.load = sim->input.holds_load ? sim->input.load_q27 : profile_q27_value(&plan->load_q27, sim->step);
+    input.speed = sim->input.holds_speed ? sim->input.speed_q27 : profile_q27_value(&plan->speed_q27, sim->step);
     if (plan->texture.is_active) {
         renew_texture(sim, input.speed);
         input.load = texture_load_q27(input.load, sim->texture);
@@ -156,6 +159,7 @@ void sim_reset(struct sim *sim, const struct sim_plan *plan)
     sim->measure = (struct measure){0};
     sim->angle = (struct texture_angle){0};
     sim->texture = 0;
+    sim->input = (struct input_state){0};
     reset_plant(sim);
     detector_reset(&sim->detector, &plan->detector, &sim->output);
 }
@@ -165,6 +169,8 @@ void sim_apply(struct sim *sim, const struct sim_plan *plan)
     sim->plan = plan;
     detector_restart(&sim->detector, &plan->detector);
 }
+
+void sim_input(struct sim *sim, const struct input *input) { input_take(&sim->input, input); }
 
 /* The place inside the step is by a straight line: a diverging plant needs many steps to pass the mark. */
 static void watch_v10(struct sim *sim, int32_t v_before)

@@ -12,6 +12,7 @@
 #include "model/step_f32.h"
 #include "model/step_q27.h"
 #include "sim/detector.h"
+#include "sim/input.h"
 #include "sim/measure.h"
 #include "sim/profile.h"
 #include "sim/sample.h"
@@ -50,6 +51,7 @@ struct sim {
     struct step_f32 f32; /* one of the two, as the plan says */
     struct step_q27 q27;
     struct plant_output output;
+    struct input_state input;   /* of a controller, in place of the profiles */
     struct texture_angle angle; /* of the disc; counted from reset, while there is run-out */
     int32_t texture;            /* that acts on the load */
     struct detector detector;
@@ -68,6 +70,9 @@ void sim_reset(struct sim *sim, const struct sim_plan *plan);
 
 /* A new set takes hold between two steps; state and units are kept. [ISR] */
 void sim_apply(struct sim *sim, const struct sim_plan *plan);
+
+/* A controller's demand takes hold with the next step. [ISR] */
+void sim_input(struct sim *sim, const struct input *input);
 
 /* One step: load, plant, domain check, detector, measurement, hash. In a fault it does nothing. Returns true when the
  * detector has a new verdict. [ISR] */

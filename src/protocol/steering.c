@@ -1,0 +1,110 @@
+/* input: what a controller would ask of the brake, by hand. */
+#include "base/decimal.h"
+#include "base/fmath.h"
+#include "protocol/console_parts.h"
+
+static const struct kind {
+    const char *word;
+    enum input_load load;
+    enum input_speed speed;
+} kinds[] = {
+    {"N", INPUT_LOAD_FORCE, INPUT_SPEED_KEEP},
+    {"pressure", INPUT_LOAD_PRESSURE, INPUT_SPEED_KEEP},
+    {"v0", INPUT_LOAD_KEEP, INPUT_SPEED_DISC},
+    {"vehicle", INPUT_LOAD_KEEP, INPUT_SPEED_VEHICLE},
+};
+
+static const struct kind *find_kind(struct token word)
+{
+    for (size_t i = 0u; i < sizeof kinds / sizeof kinds[0]; i++) {
+        if (token_is(word, kinds[i].word)) {
+            return &kinds[i];
+        }
+    }
+    return NULL;
+}
+
+static bool read_value(struct console *console, struct token word, float *value)
+{
+    if (word.length == 0u) {
+        console_refuse_usage(console);
+        return false;
+    }
+    if (!decimal_parse_f32(word.start, word.length, value)) {
+        console_refuse(console, ERROR_BAD_NUMBER, word, error_text(ERROR_BAD_NUMBER));
+        return false;
+    }
+    return true;
+}
+
+/* One force or speed; a second of the same is refused. */
+static bool read_kind(struct console *console, const struct kind *kind, struct token word, struct input_demand *demand)
+{
+    const bool is_load = kind->load != INPUT_LOAD_KEEP;
+    const bool is_taken = is_load ? demand->load != INPUT_LOAD_KEEP : demand->speed != INPUT_SPEED_KEEP;
+
+    if (is_taken) {
+        console_refuse_usage(console);
+        return false;
+    }
+    if (is_load) {
+        demand->load = kind->load;
+        return read_value(console, word, &demand->load_value);
+    }
+    demand->speed = kind->speed;
+    return read_value(console, word, &demand->speed_value);
+}
+
+/* "profile", or "N|pressure|v0|vehicle <value> ...", then "at <step>" if wanted. */
+static bool read_demand(struct console *console, struct input_demand *demand)
+{
+    struct token word = token_first(console->arguments);
+    uint32_t step = INPUT_NOW;
+
+    if (token_is(word, "profile")) {
+        demand->load = INPUT_LOAD_PROFILE;
+        demand->speed = INPUT_SPEED_PROFILE;
+        word = token_next(word);
+    }
+    for (const struct kind *kind = find_kind(word); kind != NULL; kind = find_kind(word)) {
+        if (!read_kind(console, kind, token_next(word), demand)) {
+            return false;
+        }
+        word = token_next(token_next(word));
+    }
+    if (token_is(word, "at")) {
+        word = token_next(word);
+        if (word.length != 0u && !token_number(word, 1u, UINT32_MAX, &step)) {
+            console_refuse_count(console, "at", word, 1u, UINT32_MAX);
+            return false;
+        }
+        word = word.length != 0u ? token_next(word) : token_first("at");
+    }
+    demand->step = step;
+    if (word.length != 0u || (demand->load == INPUT_LOAD_KEEP && demand->speed == INPUT_SPEED_KEEP)) {
+        console_refuse_usage(console);
+        return false;
+    }
+    return true;
+}
+
+void steering_obey(struct console *console)
+{
+    struct input_demand demand = {.load = INPUT_LOAD_KEEP};
+    bool is_clamped;
+
+    if (console_is_in_fault(console)) {
+        console_refuse_fault(console);
+        return;
+    }
+    if (!read_demand(console, &demand)) {
+        return;
+    }
+    if (!executive_input(console->executive, &demand, &is_clamped)) {
+        console_refuse(console, ERROR_BUSY, token_first(console->command), error_text(ERROR_BUSY));
+        return;
+    }
+    console_begin_ok(console);
+    text_key_text(console->text, "clamped", is_clamped ? "yes" : "no");
+    console_end(console);
+}
