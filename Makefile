@@ -37,13 +37,15 @@ PROBE      := $(OUT_BOARD)/probe$(BOARD_SUFFIX)
 UNIT_HOST  := build/unit/host
 TOOL       := build/tools/squeal-tool
 ORACLE     := build/tests/oracle
+CAMPAIGN   := build/tests/frames
 
 OBJECTS_IMAGE := $(SOURCES_IMAGE:%.c=$(OUT_BOARD)/%.o)
 OBJECTS_UNIT  := $(patsubst %.c,$(OUT_BOARD)/%.o,$(SOURCES) $(SOURCES_BOARD) $(UNIT_TESTS) tests/target/platform.c)
 OBJECTS_PROBE := $(patsubst %.c,$(OUT_BOARD)/%.o,$(SOURCES) $(SOURCES_BOARD) tests/target/probe.c)
 OBJECTS_HOST  := $(patsubst %.c,build/unit/%.o,$(SOURCES) $(UNIT_TESTS) tests/unit/platform_host.c)
 OBJECTS_TOOL  := $(SOURCES_TOOL:%.c=build/tools/%.o)
-OBJECTS       := $(sort $(OBJECTS_IMAGE) $(OBJECTS_UNIT) $(OBJECTS_PROBE) $(OBJECTS_HOST) $(OBJECTS_TOOL))
+OBJECTS_LINE  := $(patsubst %.c,build/tools/%.o,$(filter src/base/%,$(SOURCES)) src/protocol/frame.c $(wildcard tests/frames/*.c))
+OBJECTS       := $(sort $(OBJECTS_IMAGE) $(OBJECTS_UNIT) $(OBJECTS_PROBE) $(OBJECTS_HOST) $(OBJECTS_TOOL) $(OBJECTS_LINE))
 
 # The commit's name is kept in a file that changes only when the name does.
 BUILD_ID := $(or $(shell GIT_OPTIONAL_LOCKS=0 git describe --always --dirty 2>/dev/null),unknown)
@@ -52,7 +54,7 @@ $(shell mkdir -p build && echo '$(BUILD_ID)' >build/build_id)
 endif
 
 # --- Rules ----------------------------------------------------------------------------------------------------------
-.PHONY: all run monitor test golden oracle noise debug check size clean help setup other-images host-image command
+.PHONY: all run monitor test golden oracle noise frames debug check size clean help setup other-images host-image command
 .DELETE_ON_ERROR:
 
 all: $(IMAGE) ## build the firmware for BOARD (default mps2-an386)
@@ -96,6 +98,11 @@ $(TOOL): $(OBJECTS_TOOL)
 	$(call say,LD,$@)
 	$(Q)$(CC) $^ -o $@ -lm
 
+$(CAMPAIGN): $(OBJECTS_LINE)
+	$(call say,LD,$@)
+	$(Q)mkdir -p $(@D)
+	$(Q)$(CC) $^ -o $@ -lm
+
 $(ORACLE): $(wildcard tests/oracle/*.[ch] tests/oracle/*.def) Makefile | setup
 	$(call say,CC,$@)
 	$(Q)mkdir -p $(@D)
@@ -111,6 +118,13 @@ NORMAL     ?= exact
 METHOD     ?= event
 POINTS     ?=
 ASYMPTOTIC ?=
+FRAMES     ?= 1000000
+BER        ?= 1e-3
+DROP       ?= 0
+DOUBLE     ?= 0
+SWAP       ?= 0
+PAYLOAD    ?= 0-48
+SEED       ?= 1
 
 run: $(IMAGE) $(TOOL) ## run the demonstration and the map, results in build/run (POINTS= of the map along an axis, 0: none)
 	$(Q)$(TOOL) run --board $(BOARD) --out build/run $(if $(POINTS),--points $(POINTS)) -- $(COMMAND)
@@ -130,10 +144,13 @@ oracle: $(ORACLE) ## make golden rows for any parameters: the cases of CASES= in
 noise: host-image ## measure how much roughness starts squeal from rest, and how much a stable brake bears
 	$(Q)tools/starting_noise build/host/squeal
 
-test: $(IMAGE) $(UNIT_IMAGE) $(PROBE) $(UNIT_HOST) $(TOOL) $(ORACLE) other-images ## run everything that a change must pass
+frames: $(CAMPAIGN) ## send FRAMES= frames over a line with bit errors BER= (DROP= DOUBLE= SWAP= a byte, PAYLOAD= SEED=)
+	$(Q)$(CAMPAIGN) --frames $(FRAMES) --ber $(BER) --drop $(DROP) --double $(DOUBLE) --swap $(SWAP) --payload $(PAYLOAD) --seed $(SEED)
+
+test: $(IMAGE) $(UNIT_IMAGE) $(PROBE) $(UNIT_HOST) $(TOOL) $(ORACLE) $(CAMPAIGN) other-images ## run everything that a change must pass
 	$(Q)COMMANDS="$$(for board in $(BOARDS); do $(MAKE) -s --no-print-directory BOARD=$$board command; done)"; export COMMANDS; \
 	BOARD=$(BOARD) BOARD_RUN="$(BOARD_RUN)" IMAGE=$(IMAGE) UNIT_IMAGE=$(UNIT_IMAGE) PROBE=$(PROBE) \
-	    UNIT_HOST=$(UNIT_HOST) HOST_IMAGE=build/host/squeal TOOL=$(TOOL) ORACLE=$(CURDIR)/$(ORACLE) tools/tap_summary $(wildcard tests/*.t tests/system/*.t)
+	    UNIT_HOST=$(UNIT_HOST) HOST_IMAGE=build/host/squeal TOOL=$(TOOL) ORACLE=$(CURDIR)/$(ORACLE) CAMPAIGN=$(CAMPAIGN) tools/tap_summary $(wildcard tests/*.t tests/system/*.t)
 
 host-image:
 	$(Q)$(MAKE) --no-print-directory BOARD=host all

@@ -1,5 +1,6 @@
 #include "base/bytes.h"
 
+#include "base/compiler.h"
 #include "base/fmath.h"
 
 /* Where a field of so many bytes goes, or 0. */
@@ -13,7 +14,8 @@ static uint8_t *reserve(struct bytes_writer *writer, size_t size)
     return writer->bytes + (writer->size - size);
 }
 
-static void put(struct bytes_writer *writer, uint64_t value, size_t size)
+/* Not inlined once for every kind, nor is get(). */
+static BASE_NOINLINE void put(struct bytes_writer *writer, uint64_t value, size_t size)
 {
     uint8_t *field = reserve(writer, size);
 
@@ -59,7 +61,7 @@ const uint8_t *bytes_get_block(struct bytes_reader *reader, size_t size)
     return reader->bytes + (reader->offset - size);
 }
 
-static uint64_t get(struct bytes_reader *reader, size_t size)
+static BASE_NOINLINE uint64_t get(struct bytes_reader *reader, size_t size)
 {
     const uint8_t *field = bytes_get_block(reader, size);
     uint64_t value = 0u;
