@@ -96,8 +96,7 @@ static struct slip_q27_view view_from(const struct work *work, const struct slip
 static BASE_NOINLINE int32_t increment_wide(const struct work *work, const struct slip_q27_factors *f,
                                             const struct slip_q27_view *view, int32_t x, int32_t v, int32_t p)
 {
-    return slip_q27_increment(f, view, slip_q27_pull(f, x, SLIP_Q27_WIDE), v, p, work->c->has_floor, SLIP_Q27_WIDE,
-                              &work->s->is_saturated);
+    return slip_q27_increment(f, view, x, v, p, work->c->has_floor, SLIP_Q27_WIDE, &work->s->is_saturated);
 }
 
 static int32_t increment(const struct work *work, const struct slip_q27_factors *f, const struct slip_q27_view *view,
@@ -106,15 +105,14 @@ static int32_t increment(const struct work *work, const struct slip_q27_factors 
     if (!work->is_fine) {
         return increment_wide(work, f, view, x, v, p);
     }
-    return slip_q27_increment(f, view, slip_q27_pull(f, x, SLIP_Q27_FINE), v, p, work->c->has_floor, SLIP_Q27_FINE,
-                              NULL);
+    return slip_q27_increment(f, view, x, v, p, work->c->has_floor, SLIP_Q27_FINE, NULL);
 }
 
 static BASE_NOINLINE void slip_wide(const struct work *work, const struct slip_q27_factors *f,
                                     const struct slip_q27_view *view, const struct normal_q27_piece *piece,
                                     struct slip_q27_end *end)
 {
-    slip_q27_go(f, view, piece, end, work->c->has_floor, SLIP_Q27_WIDE, &work->s->is_saturated);
+    slip_q27_go(f, view, &work->s->rest, piece, end, work->c->has_floor, SLIP_Q27_WIDE, &work->s->is_saturated);
 }
 
 /* From here to a place on the stretch, where y is as given. */
@@ -129,9 +127,9 @@ static BASE_NOINLINE void slip(const struct work *work, const struct slip_q27_fa
     if (!work->is_fine) {
         slip_wide(work, f, view, &piece, end);
     } else if (work->c->has_floor) {
-        slip_q27_go(f, view, &piece, end, true, SLIP_Q27_FINE, NULL);
+        slip_q27_go(f, view, &work->s->rest, &piece, end, true, SLIP_Q27_FINE, NULL);
     } else {
-        slip_q27_go(f, view, &piece, end, false, SLIP_Q27_FINE, NULL);
+        slip_q27_go(f, view, &work->s->rest, &piece, end, false, SLIP_Q27_FINE, NULL);
     }
 }
 
@@ -148,6 +146,7 @@ static int8_t regime_at_rest(const struct step_q27 *s, const struct step_q27_coe
 void event_q27_set_speed(struct step_q27 *s, const struct step_q27_coeffs *c, int32_t speed)
 {
     const int64_t change = (int64_t)speed - s->disc;
+    int8_t mode;
 
     s->disc = speed;
     if (s->mode == PLANT_STICK && regime_at_rest(s, c, change * (1 << SLIP_Q27_WIDE)) == PLANT_STICK) {
@@ -155,9 +154,12 @@ void event_q27_set_speed(struct step_q27 *s, const struct step_q27_coeffs *c, in
         return;
     }
     if (s->v != speed) {
-        s->mode = s->v < speed ? PLANT_SLIP_PLUS : PLANT_SLIP_MINUS;
+        mode = s->v < speed ? PLANT_SLIP_PLUS : PLANT_SLIP_MINUS;
     } else {
-        s->mode = regime_at_rest(s, c, 0);
+        mode = regime_at_rest(s, c, 0);
+    }
+    if (mode != s->mode) {
+        event_q27_enter(s, mode);
     }
 }
 
@@ -220,6 +222,7 @@ static void slip_piece(struct work *work, const struct slip_q27_end *known)
         move_to(work, ONE, work->stretch.y_end);
         s->x = signed_by(side, end.x);
         s->v = signed_by(side, end.v);
+        s->rest = end.rest;
         return;
     }
     work->progress->events++;
@@ -234,7 +237,7 @@ static void slip_piece(struct work *work, const struct slip_q27_end *known)
         s->x = signed_by(side, end.x);
     }
     s->v = s->disc;
-    s->mode = regime_at_rest(s, work->c, 0);
+    event_q27_enter(s, regime_at_rest(s, work->c, 0));
 }
 
 static int32_t carried(const struct work *work, int32_t place)
@@ -296,7 +299,7 @@ static void stick_piece(struct work *work)
         s->x = fixed_saturate_and_tell((int64_t)s->x + carried(work, place), &s->is_saturated);
         move_to(work, place, normal_q27_arc_y(&work->stretch.arc, place));
     }
-    s->mode = side;
+    event_q27_enter(s, side);
 }
 
 /* --- Contact -------------------------------------------------------------------------------------------------------- */
@@ -355,7 +358,7 @@ static void change_contact(struct work *work)
     work->progress->contacts++;
     normal_q27_change_contact(&s->normal);
     if (s->normal.is_lifted && s->mode == PLANT_STICK) {
-        s->mode = regime_at_rest(s, work->c, 0);
+        event_q27_enter(s, regime_at_rest(s, work->c, 0));
     }
 }
 

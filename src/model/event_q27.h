@@ -23,6 +23,13 @@ struct event_q27_attempt {
 void event_q27_step(struct step_q27 *s, const struct step_q27_coeffs *c, struct event_q27_progress *progress,
                     const struct event_q27_attempt *attempt);
 
+/* The pad enters a regime. What rounding has left is forgotten with the side from which it was seen. */
+BASE_INLINE void event_q27_enter(struct step_q27 *s, int8_t mode)
+{
+    s->mode = mode;
+    s->rest = (struct slip_q27_rest){SUM_Q27_NO_REST, SUM_Q27_NO_REST};
+}
+
 /* The disc has a new speed. A sticking pad follows if friction can also accelerate it; a slipping one keeps its speed. */
 void event_q27_set_speed(struct step_q27 *s, const struct step_q27_coeffs *c, int32_t speed);
 

@@ -9,12 +9,11 @@ static BASE_NOINLINE int32_t increment(struct step_q27 *s, const struct step_q27
     const struct slip_q27_factors *f = &c->wide;
     bool *const tell = &s->is_saturated;
     const struct slip_q27_view view = {0, 0, side * s->disc, slip_q27_drive(f, side * s->disc, tell)};
-    const int64_t pull = slip_q27_pull(f, side * x, SLIP_Q27_WIDE);
 
     if (side == 0) {
         return fixed_saturate_and_tell(-fixed_shift_right(event_q27_need(c, x, v), SLIP_Q27_WIDE), tell);
     }
-    return side * slip_q27_increment(f, &view, pull, side * v, p, c->has_floor, SLIP_Q27_WIDE, tell);
+    return side * slip_q27_increment(f, &view, side * x, side * v, p, c->has_floor, SLIP_Q27_WIDE, tell);
 }
 
 void naive_q27_step(struct step_q27 *s, const struct step_q27_coeffs *c, struct event_q27_progress *progress)

@@ -174,9 +174,10 @@ BASE_INLINE void normal_q27_look_rk4(const struct normal_q27 *normal, int32_t si
     const int32_t y4 = sum_q27_step(y1, step, w3, is_saturated);
     const int32_t w4 = sum_q27_plain(w1, a3, is_saturated);
     const int32_t a4 = normal_q27_increment(normal, step, damping, y4, w4, is_saturated);
+    uint32_t rest = SUM_Q27_NO_REST;
     int32_t mean;
 
-    piece->w = sum_q27_rk4(w1, sixth, a1, a2, a3, a4, &mean, is_saturated);
+    piece->w = sum_q27_rk4(w1, &rest, sixth, a1, a2, a3, a4, 0u, &mean, is_saturated);
     piece->y = sum_q27_step(y1, step, mean, is_saturated);
     piece->p1 = normal_q27_force(normal, y1);
     piece->p2 = normal_q27_force(normal, y2);

@@ -35,9 +35,16 @@ struct slip_q27_view {
     int32_t drive; /* h (mu + eps disc) */
 };
 
+/* What rounding has left of x and v, as sum_q27_kept() has it, seen from the side too. Without it a small damping is lost
+ * in the rounding, and a pad that comes to rest goes on to rustle. */
+struct slip_q27_rest {
+    uint32_t x, v;
+};
+
 /* End of a piece, and the increment at its start. */
 struct slip_q27_end {
     int32_t x, v;
+    struct slip_q27_rest rest;
     int32_t first;
 };
 
@@ -60,9 +67,9 @@ BASE_INLINE int32_t slip_q27_drive(const struct slip_q27_factors *f, int32_t dis
     return slip_q27_factor(f->friction - fixed_round_up((int64_t)f->fade * disc, 27u), is_saturated);
 }
 
-/* h x'' = (drive + fade v) p + drag v + pull, where pull is spring x in the unit of the sum. */
-BASE_INLINE int32_t slip_q27_increment(const struct slip_q27_factors *f, const struct slip_q27_view *view, int64_t pull,
-                                       int32_t v, int32_t p, bool has_floor, unsigned bits, bool *is_saturated)
+/* h x'' = (drive + fade v) p + drag v + pull in the unit of the sum, and so is pull = spring x. */
+BASE_INLINE int64_t slip_q27_sum(const struct slip_q27_factors *f, const struct slip_q27_view *view, int64_t pull,
+                                 int32_t v, int32_t p, bool has_floor, bool *is_saturated)
 {
     int32_t drive = view->drive;
     int64_t fade = (int64_t)f->fade * p;
@@ -73,36 +80,53 @@ BASE_INLINE int32_t slip_q27_increment(const struct slip_q27_factors *f, const s
         fade = 0;
     }
     drag = slip_q27_factor(fixed_floor(f->drag + fade, 27u), is_saturated);
-    return sum_q27_of(pull + (int64_t)drive * p + (int64_t)drag * v, bits, is_saturated);
+    return pull + (int64_t)drive * p + (int64_t)drag * v;
 }
 
-/* spring x, with the half that rounds the sum. */
-BASE_INLINE int64_t slip_q27_pull(const struct slip_q27_factors *f, int32_t x, unsigned bits)
+/* The increment at x, v, to nearest. */
+BASE_INLINE int32_t slip_q27_increment(const struct slip_q27_factors *f, const struct slip_q27_view *view, int32_t x,
+                                       int32_t v, int32_t p, bool has_floor, unsigned bits, bool *is_saturated)
 {
-    return ((int64_t)1 << (bits - 1u)) + (int64_t)f->spring * x;
+    return sum_q27(0, slip_q27_sum(f, view, (int64_t)f->spring * x, v, p, has_floor, is_saturated), bits, is_saturated);
+}
+
+/* The increment of a stage, rounded down. What this takes away is added to *below with the weight of the stage: shifted by
+ * OUTER it counts once, by INNER twice. */
+enum { SLIP_Q27_OUTER = 12, SLIP_Q27_INNER = 11 };
+
+BASE_INLINE int32_t slip_q27_stage(int64_t sum, uint32_t *below, unsigned weight, unsigned bits, bool *is_saturated)
+{
+    *below += ((uint32_t)sum << (32u - bits)) >> weight;
+    return sum_q27_of(sum, bits, is_saturated);
 }
 
 /* The stages need of x only what the spring makes of it, and x is linear in the velocities before. */
 BASE_INLINE void slip_q27_go(const struct slip_q27_factors *f, const struct slip_q27_view *view,
-                             const struct normal_q27_piece *piece, struct slip_q27_end *end, bool has_floor,
-                             unsigned bits, bool *is_saturated)
+                             const struct slip_q27_rest *rest, const struct normal_q27_piece *piece,
+                             struct slip_q27_end *end, bool has_floor, unsigned bits, bool *tell)
 {
     const int32_t v1 = view->v;
-    const int64_t pull1 = slip_q27_pull(f, view->x, bits);
-    const int32_t a1 = slip_q27_increment(f, view, pull1, v1, piece->p1, has_floor, bits, is_saturated);
-    const int32_t v2 = sum_q27_half(v1, a1, is_saturated);
+    const int64_t pull1 = (int64_t)f->spring * view->x;
+    uint32_t below = 0u;
+    const int64_t sum1 = slip_q27_sum(f, view, pull1, v1, piece->p1, has_floor, tell);
+    const int32_t a1 = slip_q27_stage(sum1, &below, SLIP_Q27_OUTER, bits, tell);
+    const int32_t v2 = sum_q27_half(v1, a1, tell);
     const int64_t pull2 = pull1 + (int64_t)f->half_stretch * v1;
-    const int32_t a2 = slip_q27_increment(f, view, pull2, v2, piece->p2, has_floor, bits, is_saturated);
-    const int32_t v3 = sum_q27_half(v1, a2, is_saturated);
+    const int64_t sum2 = slip_q27_sum(f, view, pull2, v2, piece->p2, has_floor, tell);
+    const int32_t a2 = slip_q27_stage(sum2, &below, SLIP_Q27_INNER, bits, tell);
+    const int32_t v3 = sum_q27_half(v1, a2, tell);
     const int64_t pull3 = pull1 + (int64_t)f->half_stretch * v2;
-    const int32_t a3 = slip_q27_increment(f, view, pull3, v3, piece->p3, has_floor, bits, is_saturated);
-    const int32_t v4 = sum_q27_plain(v1, a3, is_saturated);
+    const int64_t sum3 = slip_q27_sum(f, view, pull3, v3, piece->p3, has_floor, tell);
+    const int32_t a3 = slip_q27_stage(sum3, &below, SLIP_Q27_INNER, bits, tell);
+    const int32_t v4 = sum_q27_plain(v1, a3, tell);
     const int64_t pull4 = pull1 + (int64_t)f->stretch * v3;
-    const int32_t a4 = slip_q27_increment(f, view, pull4, v4, piece->p4, has_floor, bits, is_saturated);
+    const int64_t sum4 = slip_q27_sum(f, view, pull4, v4, piece->p4, has_floor, tell);
+    const int32_t a4 = slip_q27_stage(sum4, &below, SLIP_Q27_OUTER, bits, tell);
     int32_t mean;
 
-    end->v = sum_q27_rk4(v1, f->sixth, a1, a2, a3, a4, &mean, is_saturated);
-    end->x = sum_q27_step(view->x, f->travel, mean, is_saturated);
+    end->rest = *rest;
+    end->v = sum_q27_rk4(v1, &end->rest.v, f->sixth, a1, a2, a3, a4, below, &mean, tell);
+    end->x = sum_q27_kept(view->x, &end->rest.x, (int64_t)f->travel * mean, tell);
     end->first = a1;
 }
 

@@ -92,7 +92,7 @@ void step_q27_reset(struct step_q27 *state, const struct step_q27_coeffs *coeffs
                           fixed_abs(y) == INT32_MAX || fixed_abs(w) == INT32_MAX;
     normal_q27_reset(&state->normal, &coeffs->normal, y, w, first.load, &state->is_saturated);
     state->disc = state->v;
-    state->mode = PLANT_SLIP_PLUS;
+    event_q27_enter(state, PLANT_SLIP_PLUS);
     event_q27_set_speed(state, coeffs, first.speed);
 }
 
@@ -156,7 +156,7 @@ BASE_INLINE void slip_whole(struct step_q27 *s, const struct step_q27_coeffs *c,
         view = (struct slip_q27_view){-s->x, -s->v, -s->disc, 0};
     }
     view.drive = slip_q27_drive(&c->fine, view.disc, NULL);
-    slip_q27_go(&c->fine, &view, piece, &end, has_floor, SLIP_Q27_FINE, NULL);
+    slip_q27_go(&c->fine, &view, &s->rest, piece, &end, has_floor, SLIP_Q27_FINE, NULL);
     if (BASE_UNLIKELY(end.v > view.disc || (view.disc - view.v <= end.first && view.v < view.disc))) {
         const struct event_q27_attempt attempt = {*piece, end};
 
@@ -165,6 +165,7 @@ BASE_INLINE void slip_whole(struct step_q27 *s, const struct step_q27_coeffs *c,
     }
     s->x = end.x;
     s->v = end.v;
+    s->rest = end.rest;
     normal_q27_move(&s->normal, piece);
     report(s, PLANT_SLIP_PLUS, output);
     if (is_turned) {
@@ -183,7 +184,7 @@ BASE_INLINE void stick_whole(struct step_q27 *s, const struct step_q27_coeffs *c
     const int32_t x = s->x + fixed_product(c->wide.travel, s->disc, 32u);
 
     if (BASE_UNLIKELY(!event_q27_is_held(c, x, s->disc, normal_q27_force(&s->normal, piece->y), 0))) {
-        const struct event_q27_attempt attempt = {*piece, {0, 0, 0}};
+        const struct event_q27_attempt attempt = {*piece, {0, 0, {0u, 0u}, 0}};
 
         advance_in_pieces(s, c, &attempt, output);
         return;

@@ -36,6 +36,7 @@ struct step_q27 {
     int32_t disc;      /* disc speed held over the present step */
     int8_t mode;       /* enum plant_mode */
     bool is_saturated; /* something did not fit, now or before */
+    struct slip_q27_rest rest;
     struct normal_q27 normal;
 };
 

@@ -26,7 +26,7 @@ BASE_INLINE int32_t sum_q27(int32_t base, int64_t sum, unsigned bits, bool *is_s
     return fit;
 }
 
-/* sum/2^bits rounded down, for a sum that starts with its half. */
+/* sum/2^bits rounded down. */
 BASE_INLINE int32_t sum_q27_of(int64_t sum, unsigned bits, bool *is_saturated)
 {
     int32_t fit;
@@ -56,24 +56,46 @@ BASE_INLINE int32_t sum_q27_step(int32_t base, int32_t factor, int32_t value, bo
     return sum_q27(base, (int64_t)factor * value, 32u, is_saturated);
 }
 
+/* base + sum/2^32 that forgets nothing: *rest is the word below base with a half added, before and after. What the next
+ * sum starts from is then not rounded, and base is what it would be rounded to. */
+#define SUM_Q27_NO_REST (1u << 31)
+
+BASE_INLINE int32_t sum_q27_kept(int32_t base, uint32_t *rest, int64_t sum, bool *is_saturated)
+{
+    if (is_saturated != NULL) {
+        sum += *rest;
+        *rest = (uint32_t)sum;
+        return fixed_saturate_and_tell(base + fixed_floor(sum, 32u), is_saturated);
+    }
+    sum += ((int64_t)base * ((int64_t)1 << 32)) | *rest;
+    *rest = (uint32_t)sum;
+    return sum_q27_of(sum, 32u, NULL);
+}
+
 /* One sixth in Q32. Passed as a variable, because gcc makes a row of shifts of a product with a constant. */
 #define SUM_Q27_SIXTH 715827883
+#define SUM_Q27_SIXTH_Q12 683
 
 /* The two sums of RK4 by Nystrom's formulas: mean = base + (a + b + c)/6, which the position takes, and the next
- * value = mean + (b + c + d)/6. The textbook's sum, six times as large, fits no 32 bits. */
-BASE_INLINE int32_t sum_q27_rk4(int32_t base, int32_t sixth, int32_t a, int32_t b, int32_t c, int32_t d, int32_t *mean,
-                                bool *is_saturated)
+ * value = mean + (b + c + d)/6. The textbook's sum, six times as large, fits no 32 bits. rest is as above; below is what
+ * a + 2 b + 2 c + d lack for having been rounded down, in 2^-20 of their unit, or 0 if they were rounded to nearest. */
+BASE_INLINE int32_t sum_q27_rk4(int32_t base, uint32_t *rest, int32_t sixth, int32_t a, int32_t b, int32_t c, int32_t d,
+                                uint32_t below, int32_t *mean, bool *is_saturated)
 {
+    const int64_t lacking = (int64_t)SUM_Q27_SIXTH_Q12 * (int32_t)below;
     int64_t sum;
 
     if (is_saturated != NULL) {
         sum = (int64_t)sixth * a + (int64_t)sixth * b + (int64_t)sixth * c;
-        *mean = sum_q27(base, sum, 32u, is_saturated);
-        return sum_q27(*mean, (int64_t)sixth * b + (int64_t)sixth * c + (int64_t)sixth * d, 32u, is_saturated);
+        *mean = sum_q27_kept(base, rest, sum, is_saturated);
+        sum = (int64_t)sixth * b + (int64_t)sixth * c + (int64_t)sixth * d + lacking;
+        return sum_q27_kept(*mean, rest, sum, is_saturated);
     }
-    sum = (((int64_t)base * ((int64_t)1 << 32)) | ((int64_t)1 << 31)) + (int64_t)sixth * (a + (b + c));
+    sum = (((int64_t)base * ((int64_t)1 << 32)) | *rest) + (int64_t)sixth * (a + (b + c));
     *mean = sum_q27_of(sum, 32u, NULL);
-    return sum_q27_of(sum + (int64_t)sixth * (b + c) + (int64_t)sixth * d, 32u, NULL);
+    sum += (int64_t)sixth * (b + c) + (int64_t)sixth * d + lacking;
+    *rest = (uint32_t)sum;
+    return sum_q27_of(sum, 32u, NULL);
 }
 
 #endif

@@ -6,13 +6,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define LIMIT_X 1e-3        /* of the larger extreme over the first 20 periods */
-#define LIMIT_X_FLOOR 3e-3  /* the same with a friction floor, whose kink is not located */
-#define LIMIT_ABSOLUTE 1e-6 /* length units, where the reference does not move */
-#define LIMIT_LOCKED \
-    4e-6                 /* the same in fixed point, whose equilibrium locks into some 60 counts under little damping */
-#define LIMIT_STICK 5e-3 /* share of the time */
-#define LIMIT_XPP 2e-3   /* relative */
+#define LIMIT_X 1e-3             /* of the larger extreme over the first 20 periods */
+#define LIMIT_X_FLOOR 3e-3       /* the same with a friction floor, whose kink is not located */
+#define LIMIT_ABSOLUTE 1e-6      /* length units, where the reference does not move */
+#define LIMIT_STICK 5e-3         /* share of the time */
+#define LIMIT_XPP 2e-3           /* relative */
 #define LIMIT_XPP_APERIODIC 2e-2 /* relative; the window decides which part of a torus is seen */
 #define LIMIT_RUSTLE 4e-5        /* of the larger extreme: single precision rustles at 1e-5 of a static deflection */
 #define LIMIT_F_UP 1e-4          /* relative */
@@ -109,9 +107,7 @@ static void check_attractor(struct check *check, const struct golden_reference *
     const size_t row = reference->row;
     const double xpp = cell(check, row, "xpp");
     const double extreme = fmax(fabs(cell(check, row, "xmax")), fabs(cell(check, row, "xmin")));
-    const double rustle_m =
-        fmax(LIMIT_RUSTLE * extreme,
-             (strcmp(check->plan->arith, "q27") == 0 ? LIMIT_LOCKED : LIMIT_ABSOLUTE) * reference->length_m);
+    const double rustle_m = fmax(LIMIT_RUSTLE * extreme, LIMIT_ABSOLUTE * reference->length_m);
     const char *tail = reference->class == NULL ? NULL : strrchr(reference->class, '-');
     double limit = LIMIT_XPP;
 
