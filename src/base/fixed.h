@@ -15,6 +15,9 @@ static inline uint32_t fixed_abs(int32_t value) { return value < 0 ? 0u - (uint3
  * unit test asks them. */
 static inline int64_t fixed_floor(int64_t value, unsigned shift) { return value >> shift; }
 
+/* The same in 32 bits; shift 0 ... 31. */
+static inline int32_t fixed_floor_word(int32_t value, unsigned shift) { return value >> shift; }
+
 /* value / 2 to nearest, halves up, in 32 bits; value < INT32_MAX. */
 static inline int32_t fixed_half_up(int32_t value) { return (value + 1) >> 1; }
 

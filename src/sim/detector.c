@@ -161,7 +161,7 @@ static void book_sample(struct detector *detector, const struct plant_output *ou
 {
     struct detector_frame *now = &detector->now;
     const int32_t change = fixed_saturate((int64_t)output->v - detector->v1);
-    const int32_t v_q16 = output->v >> SQUARE_SHIFT;
+    const int32_t v_q16 = fixed_floor_word(output->v, SQUARE_SHIFT);
 
     widen(output->x, &now->x_min, &now->x_max);
     widen(output->v, &now->v_min, &now->v_max);

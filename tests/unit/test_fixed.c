@@ -12,7 +12,9 @@ static void check_rounding(void)
     bool is_mirrored = true;
     bool is_near = true;
 
-    tap_check(fixed_floor(-1, 1u) == -1 && fixed_floor(-5, 2u) == -2 && fixed_floor(INT64_MIN, 63u) == -1,
+    tap_check(fixed_floor(-1, 1u) == -1 && fixed_floor(-5, 2u) == -2 && fixed_floor(INT64_MIN, 63u) == -1 &&
+                  fixed_floor_word(-1, 1u) == -1 && fixed_floor_word(-5, 2u) == -2 &&
+                  fixed_floor_word(INT32_MIN, 31u) == -1,
               "a negative number is shifted towards minus infinity");
     tap_check(fixed_round_up(5, 1u) == 3 && fixed_round_up(-5, 1u) == -2 && fixed_round_up(-6, 2u) == -1,
               "halves go up");
