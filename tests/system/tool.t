@@ -353,6 +353,7 @@ def run_tests(tap, folder):
     act = record["acts"][0]
     tap.ok(record["firmware"]["build"] == "fake" and record["board"] == "fake" and record["emulator"] is None and
            record["seed"] is None, "run.json names firmware and board")
+    tap.ok(act["act"] == 2 and act["title"] == "a fake brake is applied", "the act's number and its title, once each")
     tap.ok(act["parameters_si"]["ke"] == 1 and act["parameters_si"]["load"] == "constant" and
            act["groups"] == {"C": 0.018257, "Z2": 2, "eps": None, "mu": 0.3, "V0": 0.547},
            "parameters in SI and as groups")

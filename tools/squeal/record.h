@@ -37,7 +37,7 @@ struct act {
     struct sample *samples;
     size_t count, capacity;
     size_t start;                   /* first sample of the last run: a reset within the act starts a new one */
-    char title[SESSION_LINE_MAX];   /* the first line of the narration */
+    char title[SESSION_LINE_MAX];   /* the first line of the narration, "act <number>: ..." */
     char verdict[SESSION_LINE_MAX]; /* fields */
     char status[SESSION_LINE_MAX];
     char first_hash[16]; /* of the state before the act and after it */

@@ -115,10 +115,21 @@ static void groups_write(FILE *file, const char *status)
     (void)fputc('}', file);
 }
 
+/* The title alone: the device says "act <number>: <title>", and the number is a field of its own. */
+static const char *title_of(const struct act *act)
+{
+    char start[32];
+    const int length = snprintf(start, sizeof start, "act %d: ", act->number);
+
+    return strncmp(act->title, start, (size_t)length) == 0 ? act->title + length : act->title;
+}
+
 static void act_write(FILE *file, const struct act *act)
 {
+    const char *title = title_of(act);
+
     (void)fprintf(file, "    {\"act\": %d, \"title\": ", act->number);
-    string_write(file, act->title, strlen(act->title));
+    string_write(file, title, strlen(title));
     (void)fprintf(file, ", \"complete\": %s,\n     \"parameters_si\": ", act->is_done ? "true" : "false");
     parameters_write(file, act->parameters);
     (void)fputs(",\n     \"groups\": ", file);
