@@ -4,6 +4,7 @@
 #include "base/assert.h"
 #include "base/fmath.h"
 #include "model/presets.h"
+#include "model/sine.h"
 #include "tap.h"
 
 static uint32_t length_of(const char *text)
@@ -90,6 +91,30 @@ float plants_largest_v(struct plant *plant, uint32_t steps)
         largest = fmath_max(largest, fmath_abs(plant->sim.f32.v));
     }
     return largest;
+}
+
+/* x = mu n [(1 - cos Z t)/Z2 - (cos t - cos Z t)/(Z2 - 1)] */
+void plants_check_undamped(struct plant *plant, const char *assignments, float tolerance)
+{
+    const struct scale *scale = &plant->plan.scale;
+    struct params params = plants_params("c 0 alpha 0 kt 1.25 k 1 N0 0.5");
+    float worst = 0.0f;
+
+    assign(&params, assignments);
+    start(plant, params);
+    for (uint32_t i = 1u; i <= 20u * scale->steps_per_period; i++) {
+        const uint32_t turn = i * (SINE_GRID / scale->steps_per_period);
+        const float normal = sine_cosine_f32(turn);
+        const float own = sine_cosine_f32(turn * 3u / 2u);
+        const float expected = (1.0f - own) / 2.25f + (own - normal) / 1.25f;
+        float x;
+
+        plants_run_steps(plant, 1u);
+        x = (int)plant->plan.params.arithmetic == ARITH_F32 ? plant->sim.f32.x : (float)plant->sim.q27.x / 134217728.0f;
+        worst = fmath_max(worst, fmath_abs(x / (0.25f * scale->friction) - expected));
+    }
+    tap_check_close(worst / 1.7f, 0.0f, tolerance, "undamped slip against its closed form, of the largest swing");
+    tap_check(plant->sim.counters.events == 0u && plant->sim.output.mode == PLANT_SLIP_PLUS, "which never stuck");
 }
 
 void plants_executive(struct executive *executive, const char *assignments)

@@ -38,28 +38,6 @@ static float difference(uint32_t periods)
 
 /* --- What it must reach --------------------------------------------------------------------------------------------- */
 
-/* Without damping and slope x = mu n [(1 - cos Z t)/Z2 - (cos t - cos Z t)/(Z2 - 1)]; here Z = 3/2. */
-static void check_undamped(const char *assignments, float tolerance)
-{
-    float worst = 0.0f;
-    float unit;
-    uint32_t stride;
-
-    plants_start(&plant, assignments);
-    stride = SINE_GRID / plant.plan.scale.steps_per_period;
-    unit = plant.plan.scale.friction * 0.25f; /* N is a quarter of N_max */
-    for (uint32_t i = 1u; i <= 20u * plant.plan.scale.steps_per_period; i++) {
-        const float normal = sine_cosine_f32(i * stride);
-        const float own = sine_cosine_f32(i * stride * 3u / 2u);
-
-        plants_run_steps(&plant, 1u);
-        worst =
-            fmath_max(worst, fmath_abs((float)pad->x * UNIT / unit - (1.0f - own) / 2.25f + (normal - own) / 1.25f));
-    }
-    tap_check_close(worst / 1.7f, 0.0f, tolerance, "undamped slip against its closed form, of the largest swing");
-    tap_check(plant.sim.counters.events == 0u && pad->mode == PLANT_SLIP_PLUS, "which never stuck");
-}
-
 /* tests/golden: fig5_N5, which sticks and crosses; x after 20 periods from a solver of order 22. */
 static void check_golden(void)
 {
@@ -367,9 +345,9 @@ static void check_apply(void)
 
 void test_step_q27(void)
 {
-    check_undamped("c 0 alpha 0 kt 1.25 k 1 N0 0.5 normal exact spp 64 arith q27", 2e-4f);
-    check_undamped("c 0 alpha 0 kt 1.25 k 1 N0 0.5 normal exact spp 256 arith q27", 2e-6f);
-    check_undamped("c 0 alpha 0 kt 1.25 k 1 N0 0.5 spp 256 arith q27", 5e-6f);
+    plants_check_undamped(&plant, "normal exact spp 64 arith q27", 2e-4f);
+    plants_check_undamped(&plant, "normal exact spp 256 arith q27", 2e-6f);
+    plants_check_undamped(&plant, "spp 256 arith q27", 5e-6f);
     check_golden();
     check_stick("N0 1 y0 1 v0 0.05 xd0 0.05 arith q27");
     check_stick("N0 1 y0 1 v0 -0.05 xd0 -0.05 arith q27");
