@@ -95,9 +95,32 @@ static void check_graze(void)
               "a pad at the disc's speed that is pulled on crosses at once");
 }
 
+/* A pad that bounces on a stopped disc switches more often in a few steps than is followed. */
+static void check_cap(const char *assignments)
+{
+    const struct plant_output *output = &plant.sim.output;
+    uint32_t capped = 0u;
+    uint32_t full = 0u;
+    bool is_fair = true;
+
+    plants_start(&plant, assignments);
+    for (uint32_t i = 0u; i < 2000u; i++) {
+        plants_run_steps(&plant, 1u);
+        full += output->events == PLANT_EVENTS_MAX ? 1u : 0u;
+        capped += output->is_capped ? 1u : 0u;
+        is_fair = is_fair && output->events <= PLANT_EVENTS_MAX && output->stick <= PLANT_SHARE_ONE &&
+                  (!output->is_capped || output->events == PLANT_EVENTS_MAX);
+    }
+    tap_check(is_fair && capped > 0u, "no step has more than three switches, and a fourth is told");
+    tap_check(full > capped, "three alone are not");
+    tap_check(plant.sim.counters.caps == capped && plant.sim.fault == SIM_FAULT_NONE, "such steps are counted");
+}
+
 void test_events(void)
 {
     check_exit();
     check_crossing();
     check_graze();
+    check_cap("spp 16 contact lift kt 0.25 k 0.25 y0 2.5 v0 0 x0 0.3");
+    check_cap("spp 16 contact lift kt 0.25 k 0.25 y0 2.5 v0 0 x0 0.3 arith q27");
 }
