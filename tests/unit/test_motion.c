@@ -42,6 +42,22 @@ static void check_beat(void)
     tap_check(!is_named, "a slow beat is never taken for a period");
 }
 
+/* Passages are counted across a band of a tenth of the range: a wiggle does not leave it, every swing does. */
+static void check_passages(void)
+{
+    const struct detector_verdict *verdict = &bench.detector.verdict;
+
+    tones_start(&bench, 0.0f, (struct tone){0.05f, TONES_TURN / 4, 0.0f},
+                (struct tone){0.12f, TONES_TURN / 100 * 432, 0.0f}); /* x: 0.2 and 0.028 */
+    (void)tones_run_to(&bench, 8u);
+    tap_check_close((float)verdict->cycles * 32768.0f * TONES_SPP / (float)verdict->cycle_steps_q15, 0.25f, 5e-3f,
+                    "a wiggle that crosses the level again adds nothing to the frequency");
+    tones_start(&bench, 0.0f, (struct tone){0.2f, TONES_TURN, 0.0f}, (struct tone){0.035f, TONES_TURN / 2, 0.0f});
+    (void)tones_run_to(&bench, 8u);
+    tap_check_close((float)verdict->cycles * 32768.0f * TONES_SPP / (float)verdict->cycle_steps_q15, 1.0f, 5e-3f,
+                    "nor is the shallower of two swings missed");
+}
+
 static void check_autonomous(void)
 {
     const struct detector_verdict *verdict = &bench.detector.verdict;
@@ -145,6 +161,7 @@ void test_motion(void)
 {
     check_periods();
     check_beat();
+    check_passages();
     check_autonomous();
     check_explained();
     check_spiral();
