@@ -1,5 +1,6 @@
 /* Which period does the motion repeat in, if any? Strobes where the normal oscillation sets the clock, maxima of x where
  * the pad keeps its own. A few comparisons a step. */
+#include "base/compiler.h"
 #include "base/fixed.h"
 #include "sim/detector_parts.h"
 
@@ -7,13 +8,23 @@ enum {
     STROBES_COMPARED = DETECTOR_STROBES - DETECTOR_FRAME_PERIODS, /* older ones may be overwritten meanwhile */
     PEAKS_COMPARED = 20,
     PEAK_PERIOD_MAX = 4,
-    PAIRS_PER_STEP = 4,     /* two comparisons each; from 32 steps a period on a search ends within its frame */
+    PAIRS_PER_STEP = 4, /* two comparisons each */
+    PAIRS_PER_LONG_STEP = 8,
+    LONG_STEPS = 16,        /* a period: they have the time for more, and a frame has few of them */
     TOLERANCE_SHIFT = 10,   /* of the range: 1e-3 */
     INTERVAL_SHIFT = 8,     /* of the interval between maxima: 4e-3 */
     SPIRAL_LEAST_Q16 = 76,  /* growth of 1e-4 a period */
     AUTONOMOUS_RATIO = 8,   /* the normal oscillation explains less than an eighth: the pad may keep its own time */
     NORMAL_SILENT = 1 << 19 /* normal speed below 1/256: nothing that could set the clock */
 };
+
+/* The longest search: every period but one agrees up to its last pair. It ends before the next frame does, three steps of
+ * which do other work. */
+#define PAIRS_OF(compared, periods) ((periods) * (compared) - (periods) * ((periods) + 1) / 2)
+#define PAIRS_MAX (PAIRS_OF(STROBES_COMPARED, DETECTOR_PERIOD_MAX) + PAIRS_OF(PEAKS_COMPARED, PEAK_PERIOD_MAX))
+#define FRAME_STEPS(steps_per_period) (DETECTOR_FRAME_PERIODS * (steps_per_period)-3)
+BASE_STATIC_ASSERT(PAIRS_MAX <= PAIRS_PER_LONG_STEP * FRAME_STEPS(LONG_STEPS), search_ends_in_a_frame_of_long_steps);
+BASE_STATIC_ASSERT(PAIRS_MAX <= PAIRS_PER_STEP * FRAME_STEPS(2 * LONG_STEPS), search_ends_in_any_other_frame);
 
 static void finish(struct detector *detector, enum detector_class motion, uint32_t period)
 {
@@ -154,8 +165,9 @@ void detector_search_continue(struct detector *detector)
     const bool by_peaks = search->stage == STAGE_PEAKS;
     const uint32_t compared = by_peaks ? PEAKS_COMPARED : STROBES_COMPARED;
     const uint32_t newest = search->head - 1u;
+    const uint32_t pairs = detector->config.steps_per_period <= LONG_STEPS ? PAIRS_PER_LONG_STEP : PAIRS_PER_STEP;
 
-    for (uint32_t pair = 0u; pair < PAIRS_PER_STEP; pair++) {
+    for (uint32_t pair = 0u; pair < pairs; pair++) {
         const uint32_t newer = newest - search->index;
         const uint32_t older = newer - search->period;
 

@@ -2,6 +2,7 @@
 #include "sim/detector.h"
 
 #include "base/compiler.h"
+#include "base/fmath.h"
 #include "tap.h"
 #include "tests.h"
 #include "tones.h"
@@ -121,11 +122,49 @@ static void check_stick(void)
     tap_check(tones_run_to(&bench, 8u)->propensity == PROPENSITY_QUIET, "also where the disc's speed swings");
 }
 
+/* The longest search: every period but one repeats up to the last pair of strobes that is compared. */
+static uint32_t steps_of_search(uint32_t steps_per_period)
+{
+    const uint32_t frame = steps_per_period * DETECTOR_FRAME_PERIODS;
+    const uint32_t turn = UINT32_MAX / steps_per_period + 1u;
+    struct detector *detector = &bench.detector;
+    struct plant_output output = {.mode = PLANT_SLIP_PLUS, .disc = tones_q27(0.5f), .y = tones_q27(0.25f)};
+
+    bench.config =
+        (struct detector_config){steps_per_period, 843314857 / (int32_t)steps_per_period, 2u << 16, 1u << 16, 0, 0};
+    detector_reset(detector, &bench.config, &output);
+    for (uint32_t step = 1u; step < 9u * frame; step++) {
+        const bool is_odd_strobe = step == frame + steps_per_period; /* the first of the second frame */
+
+        output.x = tones_q27(0.2f * fmath_sine_turns(turn * step));
+        output.v = tones_q27(0.2f * fmath_sine_turns(turn * step + (1u << 30)) + (is_odd_strobe ? 0.01f : 0.0f));
+        output.w = output.v;
+        (void)detector_push(detector, &output);
+        if (step > 8u * frame && detector->search.stage == STAGE_IDLE) {
+            return step - 8u * frame;
+        }
+    }
+    return UINT32_MAX;
+}
+
+static void check_search(void)
+{
+    bool ends = true;
+
+    for (uint32_t steps = 16u; steps <= 1024u; steps *= 2u) {
+        ends = ends && steps_of_search(steps) < steps * DETECTOR_FRAME_PERIODS;
+        ends = ends && bench.detector.verdict.motion != CLASS_UNSETTLED;
+    }
+    tap_check(ends, "the longest search for a period ends before the next frame does");
+    tap_check(steps_of_search(64u) >= 190u, "in steps that make no more than eight comparisons");
+}
+
 void test_detector(void)
 {
     check_forced();
     check_growth();
     check_stick();
+    check_search();
     tap_check_text(detector_propensity_name(PROPENSITY_SQUEAL), "squeal", "the words of the protocol");
     tap_check_text(detector_class_name(CLASS_DIVERGING), "diverging", "the last of them");
 }
