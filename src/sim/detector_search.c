@@ -18,7 +18,7 @@ enum {
     NORMAL_SILENT = 1 << 19 /* normal speed below 1/256: nothing that could set the clock */
 };
 
-/* The longest search: every period but one agrees up to its last pair. It ends before the next frame does, three steps of
+/* The longest search: every period that is tried agrees up to its last pair. It ends before the next frame does, three steps of
  * which do other work. */
 #define PAIRS_OF(compared, periods) ((periods) * (compared) - (periods) * ((periods) + 1) / 2)
 #define PAIRS_MAX (PAIRS_OF(STROBES_COMPARED, DETECTOR_PERIOD_MAX) + PAIRS_OF(PEAKS_COMPARED, PEAK_PERIOD_MAX))

@@ -122,7 +122,7 @@ static void check_stick(void)
     tap_check(tones_run_to(&bench, 8u)->propensity == PROPENSITY_QUIET, "also where the disc's speed swings");
 }
 
-/* The longest search: every period but one repeats up to the last pair of strobes that is compared. */
+/* The longest search: every period that is tried repeats up to its last pair of strobes. */
 static uint32_t steps_of_search(uint32_t steps_per_period)
 {
     const uint32_t frame = steps_per_period * DETECTOR_FRAME_PERIODS;
