@@ -23,7 +23,7 @@ struct work {
     const struct step_q27_coeffs *c;
     struct event_q27_progress *progress;
     struct stretch stretch;
-    bool is_fine;
+    bool *tell; /* NULL where the fine arithmetic serves; else what the wide one sets where a number does not fit */
 };
 
 static int32_t signed_by(int8_t sign, int32_t value) { return sign < 0 ? -value : value; }
@@ -57,80 +57,39 @@ static void move_to(struct work *work, int32_t place, int32_t y)
     work->progress->is_lifted = work->progress->is_lifted || y < 0;
 }
 
-/* The factors of a part of the step; the whole has them ready. */
-static const struct slip_q27_factors *take_part(const struct work *work, int32_t fraction,
-                                                struct slip_q27_factors *part)
+/* The factors of the way from here to a place; the whole step has them ready. */
+static const struct slip_q27_factors *take_part(const struct work *work, int32_t place, struct slip_q27_factors *part)
 {
-    const struct slip_q27_factors *whole = work->is_fine ? &work->c->fine : &work->c->wide;
+    const struct slip_q27_factors *whole = work->tell == NULL ? &work->c->fine : &work->c->wide;
+    const int32_t fraction = fraction_to(work, place);
 
     if (fraction == ONE) {
         return whole;
     }
-    part->sixth = whole->sixth;
-    part->travel = fixed_part(whole->travel, fraction);
-    part->spring = fixed_part(whole->spring, fraction);
-    part->stretch = (int32_t)fixed_round_up((int64_t)part->spring * part->travel, 32u);
-    part->half_stretch = (int32_t)fixed_round_up((int64_t)part->spring * part->travel, 33u);
-    part->friction = fixed_part(whole->friction, fraction);
-    part->fade = fixed_part(whole->fade, fraction);
-    part->drag = fixed_part((int32_t)fixed_floor(whole->drag, 27u), fraction) * (INT64_C(1) << 27) + (1 << 26);
-    if (work->c->has_floor) {
-        part->floor = fixed_part(whole->floor, fraction);
-        part->knee = ((int64_t)part->floor - part->friction) * (1 << 27);
-    }
+    slip_q27_take_part(whole, fraction, work->c->has_floor, part);
     return part;
 }
-
-/* --- Slip, in the arithmetic that serves --------------------------------------------------------------------------- */
 
 /* The pad as seen from the given side. */
 static struct slip_q27_view view_from(const struct work *work, const struct slip_q27_factors *f, int8_t side)
 {
-    struct step_q27 *s = work->s;
+    const struct step_q27 *s = work->s;
     struct slip_q27_view view = {signed_by(side, s->x), signed_by(side, s->v), signed_by(side, s->disc), 0};
 
-    view.drive = slip_q27_drive(f, view.disc, work->is_fine ? NULL : &s->is_saturated);
+    view.drive = slip_q27_drive(f, view.disc, work->tell);
     return view;
 }
 
-static BASE_NOINLINE int32_t increment_wide(const struct work *work, const struct slip_q27_factors *f,
-                                            const struct slip_q27_view *view, int32_t x, int32_t v, int32_t p)
-{
-    return slip_q27_increment(f, view, x, v, p, work->c->has_floor, SLIP_Q27_WIDE, &work->s->is_saturated);
-}
-
-static int32_t increment(const struct work *work, const struct slip_q27_factors *f, const struct slip_q27_view *view,
-                         int32_t x, int32_t v, int32_t p)
-{
-    if (!work->is_fine) {
-        return increment_wide(work, f, view, x, v, p);
-    }
-    return slip_q27_increment(f, view, x, v, p, work->c->has_floor, SLIP_Q27_FINE, NULL);
-}
-
-static BASE_NOINLINE void slip_wide(const struct work *work, const struct slip_q27_factors *f,
-                                    const struct slip_q27_view *view, const struct normal_q27_piece *piece,
-                                    struct slip_q27_end *end)
-{
-    slip_q27_go(f, view, &work->s->rest, piece, end, work->c->has_floor, SLIP_Q27_WIDE, &work->s->is_saturated);
-}
-
 /* From here to a place on the stretch, where y is as given. */
-static BASE_NOINLINE void slip(const struct work *work, const struct slip_q27_factors *f,
-                               const struct slip_q27_view *view, int32_t place, int32_t y, struct slip_q27_end *end)
+BASE_INLINE void slip(const struct work *work, const struct slip_q27_factors *f, const struct slip_q27_view *view,
+                      int32_t place, int32_t y, struct slip_q27_end *end)
 {
     const int32_t at = work->stretch.at;
     const int32_t middle = force_of(work, normal_q27_arc_y(&work->stretch.arc, at + (place - at) / 2));
     const struct normal_q27_piece piece = {
         .p1 = force_of(work, work->s->normal.y), .p2 = middle, .p3 = middle, .p4 = force_of(work, y)};
 
-    if (!work->is_fine) {
-        slip_wide(work, f, view, &piece, end);
-    } else if (work->c->has_floor) {
-        slip_q27_go(f, view, &work->s->rest, &piece, end, true, SLIP_Q27_FINE, NULL);
-    } else {
-        slip_q27_go(f, view, &work->s->rest, &piece, end, false, SLIP_Q27_FINE, NULL);
-    }
+    slip_q27_any_go(f, view, &work->s->rest, &piece, end, work->c->has_floor, work->tell);
 }
 
 /* At vr = 0 the pad sticks if friction can hold it; otherwise it slips to the side that the need pulls it to. The same
@@ -179,7 +138,8 @@ static int32_t find_crossing(const struct work *work, const struct slip_q27_fact
     if (f1 >= 0 && (d0 >= 0 || f0 + d0 > 0 || f0 <= 0)) {
         return NOT_HERE;
     }
-    d1 = -(int64_t)increment(work, f, view, end->x, end->v, force_of(work, work->stretch.y_end));
+    d1 = -(int64_t)slip_q27_any_increment(f, view, end->x, end->v, force_of(work, work->stretch.y_end),
+                                          work->c->has_floor, work->tell);
     vr = hermite_q27_make(f0, d0, f1, d1);
     if (f1 >= 0) {
         if (d1 <= 0) {
@@ -203,7 +163,7 @@ static void slip_piece(struct work *work, const struct slip_q27_end *known)
     struct step_q27 *s = work->s;
     const int8_t side = s->mode;
     struct slip_q27_factors part;
-    const struct slip_q27_factors *factors = take_part(work, fraction_to(work, ONE), &part);
+    const struct slip_q27_factors *factors = take_part(work, ONE, &part);
     struct slip_q27_view view = view_from(work, factors, side);
     struct slip_q27_end end;
     int32_t place;
@@ -230,7 +190,7 @@ static void slip_piece(struct work *work, const struct slip_q27_end *known)
     if (place > work->stretch.at) {
         const int32_t y = normal_q27_arc_y(&work->stretch.arc, place);
 
-        factors = take_part(work, fraction_to(work, place), &part);
+        factors = take_part(work, place, &part);
         view = view_from(work, factors, side);
         slip(work, factors, &view, place, y, &end);
         move_to(work, place, y);
@@ -376,7 +336,7 @@ void event_q27_step(struct step_q27 *s, const struct step_q27_coeffs *c, struct 
     work.s = s;
     work.c = c;
     work.progress = progress;
-    work.is_fine = attempt != NULL;
+    work.tell = attempt != NULL ? NULL : &s->is_saturated;
     if (attempt != NULL) {
         piece = attempt->piece;
         known = &attempt->end;

@@ -130,4 +130,17 @@ BASE_INLINE void slip_q27_go(const struct slip_q27_factors *f, const struct slip
     end->first = a1;
 }
 
+/* --- Parts of a step ------------------------------------------------------------------------------------------------ */
+
+/* The factors of a part of the step, a fraction in Q30. Those of the floor are left alone where there is none. */
+void slip_q27_take_part(const struct slip_q27_factors *whole, int32_t fraction, bool has_floor,
+                        struct slip_q27_factors *part);
+
+/* The two above in either arithmetic, with factors in its format: wide with is_saturated given, fine with NULL. */
+int32_t slip_q27_any_increment(const struct slip_q27_factors *f, const struct slip_q27_view *view, int32_t x, int32_t v,
+                               int32_t p, bool has_floor, bool *is_saturated);
+void slip_q27_any_go(const struct slip_q27_factors *f, const struct slip_q27_view *view,
+                     const struct slip_q27_rest *rest, const struct normal_q27_piece *piece, struct slip_q27_end *end,
+                     bool has_floor, bool *is_saturated);
+
 #endif
