@@ -1,5 +1,5 @@
 /* Steps of the Q4.27 plant in pieces: where regimes switch inside the step, and wherever the fast path does not serve.
- * Part of step_q27, in a file of its own; the rules are those of step_f32.c. */
+ * Part of step_q27, in a file of its own; the rules are those of event_f32.c. */
 #ifndef MODEL_EVENT_Q27_H
 #define MODEL_EVENT_Q27_H
 

@@ -1,8 +1,10 @@
-/* The law of friction and one RK4 piece of slip, for step_f32.c alone. */
+/* The law of friction, one RK4 piece of slip, and what a piece is judged by: what step_f32.c, event_f32.c and naive_f32.c
+ * share, and nobody else. */
 #ifndef MODEL_SLIP_F32_H
 #define MODEL_SLIP_F32_H
 
 #include "base/compiler.h"
+#include "base/fmath.h"
 #include "model/step_f32.h"
 
 /* End of one slip piece. */
@@ -57,5 +59,34 @@ BASE_INLINE void slip_as(const struct step_f32 *s, const struct step_f32_coeffs 
     end->dx = sixth * (v1 + 2.0f * (v2 + v3) + v4);
     end->v = v1 + sixth * (a1 + 2.0f * (a2 + a3) + a4);
 }
+
+static inline void slip(const struct step_f32 *s, const struct step_f32_coeffs *c, const struct normal_f32_piece *piece,
+                        float duration, float a1, struct slip_end *end)
+{
+    if (c->has_floor) {
+        slip_as(s, c, piece, duration, a1, end, true);
+    } else {
+        slip_as(s, c, piece, duration, a1, end, false);
+    }
+}
+
+/* A curve that stays above its first tangent stays above 0 when the tangent does: the usual case, decided cheaply. */
+BASE_INLINE bool stays_clear(float vr_start, float slope, float vr_end)
+{
+    return vr_end >= 0.0f && (slope >= 0.0f || vr_start + slope > 0.0f || vr_start <= 0.0f);
+}
+
+/* What friction could hold beyond what it must, if the pad stuck at x under the contact force p; *side is where it would
+ * slip. */
+BASE_INLINE float stick_spare(const struct step_f32 *s, const struct step_f32_coeffs *c, float x, float p, int8_t *side)
+{
+    const float need = c->damping * s->disc + c->stiffness * x;
+
+    *side = need > 0.0f ? PLANT_SLIP_PLUS : PLANT_SLIP_MINUS;
+    return c->friction * p - signed_by(*side, need);
+}
+
+/* x moves on, and keeps what rounding takes from it. */
+static inline void move_x(struct step_f32 *s, float dx) { s->x = fmath_add_kept(s->x, dx, &s->x_rest); }
 
 #endif
