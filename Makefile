@@ -28,6 +28,7 @@ SOURCES       := $(filter-out src/base/mem.c,$(wildcard $(addprefix src/,$(addsu
 SOURCES_BOARD := $(sort $(BOARD_SOURCES)) boards/$(BOARD)/board.c
 SOURCES_IMAGE := $(SOURCES) $(wildcard src/app/*.c) $(SOURCES_BOARD)
 SOURCES_TOOL  := $(filter src/base/% src/model/% src/analysis/%,$(SOURCES)) $(wildcard tools/squeal/*.c)
+SOURCES_MERIT := $(filter-out src/protocol/%,$(SOURCES)) tools/squeal/csv.c tools/squeal/fields.c $(wildcard tests/merit/*.c)
 UNIT_TESTS    := $(filter-out tests/unit/platform_host.c,$(wildcard tests/unit/*.c))
 
 OUT_BOARD  := build/$(BOARD)
@@ -38,6 +39,7 @@ UNIT_HOST  := build/unit/host
 TOOL       := build/tools/squeal-tool
 ORACLE     := build/tests/oracle
 CAMPAIGN   := build/tests/frames
+MERIT      := build/tests/merit
 
 OBJECTS_IMAGE := $(SOURCES_IMAGE:%.c=$(OUT_BOARD)/%.o)
 OBJECTS_UNIT  := $(patsubst %.c,$(OUT_BOARD)/%.o,$(SOURCES) $(SOURCES_BOARD) $(UNIT_TESTS) tests/target/platform.c)
@@ -45,7 +47,8 @@ OBJECTS_PROBE := $(patsubst %.c,$(OUT_BOARD)/%.o,$(SOURCES) $(SOURCES_BOARD) tes
 OBJECTS_HOST  := $(patsubst %.c,build/unit/%.o,$(SOURCES) $(UNIT_TESTS) tests/unit/platform_host.c)
 OBJECTS_TOOL  := $(SOURCES_TOOL:%.c=build/tools/%.o)
 OBJECTS_LINE  := $(patsubst %.c,build/tools/%.o,$(filter src/base/%,$(SOURCES)) src/protocol/frame.c $(wildcard tests/frames/*.c))
-OBJECTS       := $(sort $(OBJECTS_IMAGE) $(OBJECTS_UNIT) $(OBJECTS_PROBE) $(OBJECTS_HOST) $(OBJECTS_TOOL) $(OBJECTS_LINE))
+OBJECTS_MERIT := $(SOURCES_MERIT:%.c=build/tools/%.o)
+OBJECTS       := $(sort $(OBJECTS_IMAGE) $(OBJECTS_UNIT) $(OBJECTS_PROBE) $(OBJECTS_HOST) $(OBJECTS_TOOL) $(OBJECTS_LINE) $(OBJECTS_MERIT))
 
 # The commit's name is kept in a file that changes only when the name does.
 BUILD_ID := $(or $(shell GIT_OPTIONAL_LOCKS=0 git describe --always --dirty 2>/dev/null),unknown)
@@ -54,7 +57,7 @@ $(shell mkdir -p build && echo '$(BUILD_ID)' >build/build_id)
 endif
 
 # --- Rules ----------------------------------------------------------------------------------------------------------
-.PHONY: all run monitor test golden oracle noise frames debug check size clean help setup other-images host-image command
+.PHONY: all run monitor test golden oracle detector noise frames debug check size clean help setup other-images host-image command
 .DELETE_ON_ERROR:
 
 all: $(IMAGE) ## build the firmware for BOARD (default mps2-an386)
@@ -73,7 +76,8 @@ build/unit/%.o: %.c
 build/tools/%.o: %.c
 	$(call say,CC,$@)
 	$(Q)mkdir -p $(@D)
-	$(Q)$(CC) $(CFLAGS_HOSTED) -c $< -o $@
+	$(Q)$(CC) $(CFLAGS_HOSTED) $(CFLAGS_EXTRA) -c $< -o $@
+build/tools/tests/merit/%.o: CFLAGS_EXTRA := -I.
 
 # The compiler must not turn the body of memcpy into a call of memcpy.
 $(OUT_BOARD)/src/base/mem.o: CFLAGS_EXTRA := -fno-tree-loop-distribute-patterns
@@ -103,6 +107,11 @@ $(CAMPAIGN): $(OBJECTS_LINE)
 	$(Q)mkdir -p $(@D)
 	$(Q)$(CC) $^ -o $@ -lm
 
+$(MERIT): $(OBJECTS_MERIT)
+	$(call say,LD,$@)
+	$(Q)mkdir -p $(@D)
+	$(Q)$(CC) $^ -o $@ -lm
+
 $(ORACLE): $(wildcard tests/oracle/*.[ch] tests/oracle/*.def) Makefile | setup
 	$(call say,CC,$@)
 	$(Q)mkdir -p $(@D)
@@ -125,6 +134,7 @@ DOUBLE     ?= 0
 SWAP       ?= 0
 PAYLOAD    ?= 0-48
 SEED       ?= 1
+COUNT      ?= 10000
 
 run: $(IMAGE) $(TOOL) ## run the demonstration and the map, results in build/run (POINTS= of the map along an axis, 0: none)
 	$(Q)$(TOOL) run --board $(BOARD) --out build/run $(if $(POINTS),--points $(POINTS)) -- $(COMMAND)
@@ -141,16 +151,35 @@ golden: $(IMAGE) $(TOOL) ## run the cases of CASES= into OUT= (ARITH= SPP= NORMA
 oracle: $(ORACLE) ## make golden rows for any parameters: the cases of CASES= into OUT=, by the reference solver
 	$(Q)$(ORACLE) --cases $(CASES) --out $(OUT) --jobs 2
 
+# Every seed and count has its own folder. The cases are drawn anew each time, but only a change of them, or of the oracle,
+# makes the truth anew: that takes its time.
+MERIT_OUT := build/detector/$(SEED)-$(COUNT)
+
+detector: $(MERIT) $(MERIT_OUT)/truth.csv ## the detector on COUNT= random cases of seed SEED= against the oracle (ARITH="f32 q27")
+	$(Q)trap 'cat $(MERIT_OUT)/table.txt' EXIT; cp $(MERIT_OUT)/cases.txt $(MERIT_OUT)/table.txt; \
+	$(MERIT) check --truth $(MERIT_OUT)/truth.csv --disagree $(MERIT_OUT)/disagree.csv \
+	    --arith "$(if $(filter file,$(origin ARITH)),f32 q27,$(ARITH))" --jobs 2 >>$(MERIT_OUT)/table.txt
+
+$(MERIT_OUT)/truth.csv: $(MERIT_OUT)/cases.csv $(wildcard tests/oracle/*.[ch] tests/oracle/*.def) | $(ORACLE)
+	$(Q)$(ORACLE) --cases $< --out $@ --jobs 2 --progress 10
+
+$(MERIT_OUT)/cases.csv: $(MERIT) draw
+	$(Q)mkdir -p $(@D)
+	$(Q)$(MERIT) cases --count $(COUNT) --seed $(SEED) --out $@.new >$(@D)/cases.txt
+	$(Q)if cmp -s $@ $@.new; then rm $@.new; else mv $@.new $@; fi
+.PHONY: draw
+draw:
+
 noise: host-image ## measure how much roughness starts squeal from rest, and how much a stable brake bears
 	$(Q)tools/starting_noise build/host/squeal
 
 frames: $(CAMPAIGN) ## send FRAMES= frames over a line with bit errors BER= (DROP= DOUBLE= SWAP= a byte, PAYLOAD= SEED=)
 	$(Q)$(CAMPAIGN) --frames $(FRAMES) --ber $(BER) --drop $(DROP) --double $(DOUBLE) --swap $(SWAP) --payload $(PAYLOAD) --seed $(SEED)
 
-test: $(IMAGE) $(UNIT_IMAGE) $(PROBE) $(UNIT_HOST) $(TOOL) $(ORACLE) $(CAMPAIGN) other-images ## run everything that a change must pass
+test: $(IMAGE) $(UNIT_IMAGE) $(PROBE) $(UNIT_HOST) $(TOOL) $(ORACLE) $(CAMPAIGN) $(MERIT) other-images ## run everything that a change must pass
 	$(Q)COMMANDS="$$(for board in $(BOARDS); do $(MAKE) -s --no-print-directory BOARD=$$board command; done)"; export COMMANDS; \
 	BOARD=$(BOARD) BOARD_RUN="$(BOARD_RUN)" IMAGE=$(IMAGE) UNIT_IMAGE=$(UNIT_IMAGE) PROBE=$(PROBE) \
-	    UNIT_HOST=$(UNIT_HOST) HOST_IMAGE=build/host/squeal TOOL=$(TOOL) ORACLE=$(CURDIR)/$(ORACLE) CAMPAIGN=$(CAMPAIGN) tools/tap_summary $(wildcard tests/*.t tests/system/*.t)
+	    UNIT_HOST=$(UNIT_HOST) HOST_IMAGE=build/host/squeal TOOL=$(TOOL) ORACLE=$(CURDIR)/$(ORACLE) CAMPAIGN=$(CAMPAIGN) MERIT=$(CURDIR)/$(MERIT) tools/tap_summary $(wildcard tests/*.t tests/system/*.t)
 
 host-image:
 	$(Q)$(MAKE) --no-print-directory BOARD=host all

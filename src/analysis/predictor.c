@@ -4,9 +4,11 @@
 #include "base/fmath.h"
 #include "model/sine.h"
 
-#define RATE_MARGIN 1e-4f  /* of the growth rate: 6e-4 a period is too close to call */
-#define TOUCH_MARGIN 0.95f /* forced motion this near to the disc's speed is worth watching */
-#define RESPONSE_MAX 64.0f /* no finite response is trusted beyond it */
+#define RATE_MARGIN 1e-4f    /* of the growth rate: 6e-4 a period is too close to call */
+#define TOUCH_MARGIN 0.95f   /* forced motion this near to the disc's speed is worth watching */
+#define TOUCH_SURE 1.025f    /* its mean, and its second harmonic, may keep it off the disc up to here */
+#define RESPONSE_MAX 1024.0f /* no finite response is trusted beyond it */
+#define BOUNCE_GAIN 64.0f    /* of a bouncing pad, whose contact is no sine */
 
 /* The set at the end of its profiles. */
 struct finish {
@@ -127,10 +129,10 @@ static bool bounces(const struct params *params, const struct finish *finish, fl
     return (int)params->contact == CONTACT_LIFT && finish->load > 0.0f && onset > finish->load;
 }
 
-/* Forced motion on the floor that reaches back across the knee, where friction falls and feeds it. */
+/* Motion on the floor that reaches back across the knee, where friction falls and feeds it: that of the onset is enough. */
 static bool crosses_knee(const struct scale *scale, const struct prediction *prediction, const struct finish *finish)
 {
-    const float slowest = finish->speed * (1.0f - prediction->touch_ratio);
+    const float slowest = finish->speed * (1.0f - fmath_max(prediction->touch_ratio, prediction->onset_touch_ratio));
 
     return prediction->is_bistable && scale->friction + scale->friction_slope * slowest > scale->friction_floor;
 }
@@ -140,7 +142,7 @@ static enum predictor_verdict judge(const struct prediction *prediction, const s
     if (finish->speed == 0.0f) {
         return PREDICTION_UNKNOWN;
     }
-    if (prediction->rate > 0.0f || prediction->touch_ratio >= 1.0f) {
+    if (prediction->rate > 0.0f || prediction->touch_ratio >= TOUCH_SURE) {
         return PREDICTION_SQUEAL;
     }
     return prediction->rate > -RATE_MARGIN || prediction->touch_ratio > TOUCH_MARGIN ? PREDICTION_WATCH
@@ -182,7 +184,7 @@ struct predictor_response predictor_response(const struct params *params, const 
     struct predictor_response response = {friction * transfer(scale, damping, 1.0f), 0.0f, 0.0f};
 
     if (bounces(params, &finish, onset_amplitude(params, scale))) {
-        response.gain = RESPONSE_MAX;
+        response.gain = BOUNCE_GAIN;
     }
 
     if ((int)params->load_profile == LOAD_SINE) {

@@ -3,16 +3,20 @@
 #include "sim/detector_parts.h"
 
 enum {
-    NOISE_SUM = 1 << 20,   /* squared changes of a frame below this are rounding */
-    GROWTH_LEAST_Q16 = 38, /* 5e-5 a period: slower than this is no growth */
-    EVIDENCE_GAIN = 4,     /* a frame with squeal */
-    EVIDENCE_ENTER = 12,   /* three frames */
-    EVIDENCE_MAX = 16,     /* forgotten after 128 quiet periods */
-    FLOOR_SHIFT = 6,       /* motion below 1/64 of the disc's speed is none */
-    FLOOR_MIN = 1 << 12,
+    NOISE_SUM = 1 << 20,      /* squared changes of a frame below this are rounding */
+    GROWTH_LEAST_Q16 = 38,    /* 5e-5 a period: slower than this is no growth */
+    EVIDENCE_GAIN = 4,        /* a frame with squeal */
+    EVIDENCE_ENTER = 12,      /* three frames */
+    EVIDENCE_MAX = 16,        /* forgotten after 128 quiet periods */
+    FLOOR_SHIFT = 6,          /* motion below 1/64 of the disc's speed is none */
+    FLOOR_MIN = 1 << 12,      /* 3e-5 Vref */
+    FLOOR_TOUCHING = 1 << 10, /* 8e-6 Vref: a pad that touches the disc moves, if it is not rounding that moves it */
     FLOOR_DISC_STOPPED = 1 << 17,
-    CONTACT_LEAST = 1 << 17, /* contact below 1/1024 of the largest load is none */
-    SHARE_LEAST_SHIFT = 20   /* a share within 1e-6 of none or all is none or all */
+    CONTACT_LEAST = 1 << 17,  /* contact below 1/1024 of the largest load is none */
+    ERROR_MOST_Q16 = 1 << 14, /* 0.02 a period: a growth less certain is not known */
+    STEADY_SHIFT = 4,         /* of the speed, over a window */
+    FALLING_SHIFT = 7,        /* the same if it falls from frame to frame: 3e-4 a period */
+    SHARE_LEAST_SHIFT = 20    /* a share within 1e-6 of none or all is none or all */
 };
 
 /* Steps of a frame as a power of two. */
@@ -143,14 +147,15 @@ static bool has_events(const struct detector *detector, const struct detector_fr
     return share > least && share < whole - least;
 }
 
-static uint32_t motion_floor(int32_t disc)
+static uint32_t motion_floor(int32_t disc, bool has_events)
 {
     const uint32_t part = fixed_abs(disc) >> FLOOR_SHIFT;
+    const uint32_t least = has_events ? FLOOR_TOUCHING : FLOOR_MIN;
 
     if (disc == 0) {
         return FLOOR_DISC_STOPPED;
     }
-    return part > FLOOR_MIN ? part : FLOOR_MIN;
+    return part > least ? part : least;
 }
 
 /* Half the range of the normal velocity. */
@@ -178,11 +183,11 @@ struct detector_window detector_rules_window(const struct detector *detector)
     struct detector_window window;
 
     window.speed = (uint32_t)(((int64_t)verdict->v_max - verdict->v_min) / 2);
-    window.floor = motion_floor(verdict->disc);
     window.forced = forced_speed(detector, newest);
     window.normal = normal_speed(newest);
     window.has_contact = newest->y_max > CONTACT_LEAST;
     window.has_events = window.has_contact && has_events(detector, newest);
+    window.floor = motion_floor(verdict->disc, window.has_events);
     return window;
 }
 
@@ -198,12 +203,49 @@ static bool is_growing(const struct detector_verdict *verdict)
            verdict->growth_q16 > verdict->growth_error_q16;
 }
 
+static int64_t speed_range(const struct detector *detector, uint32_t place)
+{
+    const struct detector_frame *frame = &detector->frames[(detector->frame + place) % DETECTOR_WINDOW_FRAMES];
+
+    return (int64_t)frame->v_max - frame->v_min;
+}
+
+/* Are all frames alike in speed, and not slower one after the other? */
+static bool is_steady(const struct detector *detector)
+{
+    int64_t range = speed_range(detector, 0u);
+    int64_t most = range;
+    int64_t least = range;
+    bool is_falling = true;
+
+    for (uint32_t i = 1u; i < DETECTOR_WINDOW_FRAMES; i++) {
+        const int64_t next = speed_range(detector, i);
+
+        is_falling = is_falling && next < range;
+        most = next > most ? next : most;
+        least = next < least ? next : least;
+        range = next;
+    }
+    return most - least <= most >> (is_falling ? FALLING_SHIFT : STEADY_SHIFT);
+}
+
+/* Is it known that the motion does not die out? After a jolt nothing is. Where the normal frequency is near a multiple of
+ * the motion's own, the free part hardly changes from strobe to strobe and drowns in rounding: then speed tells. */
+static bool lasts(const struct detector *detector)
+{
+    const struct detector_verdict *verdict = &detector->verdict;
+
+    if (verdict->has_growth) {
+        return verdict->growth_error_q16 < ERROR_MOST_Q16 && !is_decaying(verdict);
+    }
+    return verdict->free_log2_q16 < 0 && is_steady(detector);
+}
+
 /* More motion than the normal oscillation explains, and it does not die out; that takes a full window to know. */
 static bool is_self_excited(const struct detector *detector, const struct detector_window *window)
 {
     return detector->frame >= DETECTOR_WINDOW_FRAMES &&
-           window->speed > window->forced + window->forced / 2u + 2u * window->floor &&
-           !is_decaying(&detector->verdict);
+           window->speed > window->forced + window->forced / 2u + 2u * window->floor && lasts(detector);
 }
 
 static uint8_t propensity(const struct detector *detector, const struct detector_window *window)

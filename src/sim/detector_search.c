@@ -12,6 +12,7 @@ enum {
     PAIRS_PER_LONG_STEP = 8,
     LONG_STEPS = 16,        /* a period: they have the time for more, and a frame has few of them */
     TOLERANCE_SHIFT = 10,   /* of the range: 1e-3 */
+    TOLERANCE_LEAST = 1024, /* 8e-6 Vref: below it rounding may go in circles */
     INTERVAL_SHIFT = 8,     /* of the interval between maxima: 4e-3 */
     SPIRAL_LEAST_Q16 = 76,  /* growth of 1e-4 a period */
     AUTONOMOUS_RATIO = 8,   /* the normal oscillation explains less than an eighth: the pad may keep its own time */
@@ -101,6 +102,13 @@ static void give_up(struct detector *detector)
     }
 }
 
+static int64_t tolerance_of(int32_t high, int32_t low)
+{
+    const int64_t part = ((int64_t)high - low) >> TOLERANCE_SHIFT;
+
+    return part > TOLERANCE_LEAST ? part : TOLERANCE_LEAST;
+}
+
 static bool differs(int32_t a, int32_t b, int64_t tolerance)
 {
     const int64_t difference = (int64_t)a - b;
@@ -114,10 +122,8 @@ static bool strobes_differ(const struct detector *detector, uint32_t newer, uint
     const uint32_t a = newer % DETECTOR_STROBES;
     const uint32_t b = older % DETECTOR_STROBES;
 
-    return differs(detector->strobe_x[a], detector->strobe_x[b],
-                   ((int64_t)verdict->x_max - verdict->x_min) >> TOLERANCE_SHIFT) ||
-           differs(detector->strobe_v[a], detector->strobe_v[b],
-                   ((int64_t)verdict->v_max - verdict->v_min) >> TOLERANCE_SHIFT);
+    return differs(detector->strobe_x[a], detector->strobe_x[b], tolerance_of(verdict->x_max, verdict->x_min)) ||
+           differs(detector->strobe_v[a], detector->strobe_v[b], tolerance_of(verdict->v_max, verdict->v_min));
 }
 
 static bool peaks_differ(const struct detector *detector, uint32_t newer, uint32_t older)
@@ -128,8 +134,7 @@ static bool peaks_differ(const struct detector *detector, uint32_t newer, uint32
     const uint32_t interval_a = detector->peak_time_q8[a] - detector->peak_time_q8[(newer - 1u) % DETECTOR_PEAKS];
     const uint32_t interval_b = detector->peak_time_q8[b] - detector->peak_time_q8[(older - 1u) % DETECTOR_PEAKS];
 
-    return differs(detector->peak_x[a], detector->peak_x[b],
-                   ((int64_t)verdict->x_max - verdict->x_min) >> (TOLERANCE_SHIFT - 1)) ||
+    return differs(detector->peak_x[a], detector->peak_x[b], 2 * tolerance_of(verdict->x_max, verdict->x_min)) ||
            differs((int32_t)interval_a, (int32_t)interval_b, interval_a >> INTERVAL_SHIFT);
 }
 

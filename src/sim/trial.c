@@ -84,9 +84,11 @@ static void book_growth(struct trial *trial)
     line->count++;
 }
 
+/* A pad that rides along with a moving disc is still, but the spring will break it loose. */
 static bool decays(const struct detector_verdict *verdict)
 {
-    return !verdict->has_growth || verdict->growth_q16 < -verdict->growth_error_q16;
+    return (verdict->stick == 0u || verdict->disc == 0) &&
+           (!verdict->has_growth || verdict->growth_q16 < -verdict->growth_error_q16);
 }
 
 /* The end that this frame promises, if it does. */

@@ -1,10 +1,11 @@
 /* oracle: the truth about a table of cases.
- *   oracle --cases in.csv --out out.csv [--jobs n] [--horizon periods] [--naive steps-per-period]
+ *   oracle --cases in.csv --out out.csv [--jobs n] [--horizon periods] [--naive steps-per-period] [--progress seconds]
  * Row i is worked out by process i mod n; their lines come back through pipes, in order. */
 #include <limits.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/wait.h>
+#include <time.h>
 #include <unistd.h>
 
 #include "cases.h"
@@ -15,6 +16,7 @@ enum { JOBS_MAX = 64 };
 struct options {
     const char *cases, *out;
     long jobs, horizon, naive; /* naive: steps a period, 0 = the series */
+    long progress;             /* seconds between two lines about it on stderr, 0 = none */
 };
 
 static bool parse(int count, char **word, struct options *options)
@@ -36,12 +38,14 @@ static bool parse(int count, char **word, struct options *options)
             options->horizon = strtol(value, NULL, 10);
         } else if (strcmp(word[i], "--naive") == 0) {
             options->naive = strtol(value, NULL, 10);
+        } else if (strcmp(word[i], "--progress") == 0) {
+            options->progress = strtol(value, NULL, 10);
         } else {
             return false;
         }
     }
     return options->cases != NULL && options->out != NULL && options->jobs >= 1 && options->jobs <= JOBS_MAX &&
-           options->horizon >= 1 && options->naive >= 0;
+           options->horizon >= 1 && options->naive >= 0 && options->progress >= 0;
 }
 
 /* Works out the rows of one job and writes them; with jobs = 1 these are all. */
@@ -110,14 +114,39 @@ static FILE *start(const struct options *options, long job)
     return child > 0 ? fdopen(end[0], "r") : NULL;
 }
 
+static long count_rows(const char *path)
+{
+    FILE *file = fopen(path, "r");
+    long lines = 0;
+    int character;
+
+    while (file != NULL && (character = getc(file)) != EOF) {
+        lines += character == '\n';
+    }
+    if (file != NULL) {
+        fclose(file);
+    }
+    return lines - 1;
+}
+
 /* One line of each job in turn, until one has no more. */
-static void merge(FILE **job, long jobs, FILE *out)
+static void merge(const struct options *options, FILE **job, FILE *out)
 {
     static char line[CASES_LINE_SIZE];
+    const long rows = count_rows(options->cases);
+    const time_t begin = time(NULL);
+    time_t last = begin;
 
-    for (long i = 0; fgets(line, sizeof line, job[i % jobs]) != NULL; i++) {
+    for (long i = 0; fgets(line, sizeof line, job[i % options->jobs]) != NULL; i++) {
+        const time_t now = time(NULL);
+
         fputs(line, out);
         fflush(out);
+        if (options->progress > 0 && now - last >= options->progress) {
+            fprintf(stderr, "oracle: %ld of %ld, %.1f min left\n", i + 1, rows,
+                    (double)(now - begin) / 60.0 * (double)(rows - i - 1) / (double)(i + 1));
+            last = now;
+        }
     }
 }
 
@@ -134,7 +163,7 @@ static int work_in_processes(const struct options *options, FILE *out)
             return 1;
         }
     }
-    merge(job, options->jobs, out);
+    merge(options, job, out);
     for (long i = 0; i < options->jobs; i++) {
         fclose(job[i]);
     }
@@ -152,7 +181,7 @@ int main(int count, char **word)
 
     if (!parse(count, word, &options)) {
         fprintf(stderr, "use: oracle --cases in.csv --out out.csv [--jobs n] [--horizon periods] "
-                        "[--naive steps-per-period]\n");
+                        "[--naive steps-per-period] [--progress seconds]\n");
         return 2;
     }
     out = fopen(options.out, "w");
@@ -161,7 +190,7 @@ int main(int count, char **word)
         return 1;
     }
     cases_write_header(out);
-    status = options.jobs == 1 ? work(&options, 0, out) : work_in_processes(&options, out);
+    status = options.jobs == 1 && options.progress == 0 ? work(&options, 0, out) : work_in_processes(&options, out);
     if (fclose(out) != 0) {
         fprintf(stderr, "oracle: cannot write %s\n", options.out);
         return 1;

@@ -25,6 +25,20 @@ static void check_periods(void)
     tap_check(tones_run_to(&bench, 8u)->period == 0u, "a seventeenth is beyond what is tried");
 }
 
+/* Rounding in integers may lock into a circle of some hundred counts that repeats after a few periods. */
+static void check_rounding(void)
+{
+    tones_start(&bench, 0.01f, (struct tone){0.0004f, TONES_TURN, 0.0f},
+                (struct tone){1e-6f, TONES_TURN / 3 + 1, 0.0f});
+    bench.disc = 0.02f;
+    tap_check(tones_say(tones_run_to(&bench, 8u), PROPENSITY_QUIET, CLASS_FORCED, 1u),
+              "a tone at the level of rounding does not make another period");
+    tones_start(&bench, 0.01f, (struct tone){0.0004f, TONES_TURN, 0.0f},
+                (struct tone){4e-5f, TONES_TURN / 3 + 1, 0.0f});
+    bench.disc = 0.02f;
+    tap_check(tones_run_to(&bench, 8u)->period == 3u, "forty times as large it does");
+}
+
 /* A beat of 200 periods: near its turning points neighbours agree, but never for 56 periods. */
 static void check_beat(void)
 {
@@ -160,6 +174,7 @@ static void check_diverged(void)
 void test_motion(void)
 {
     check_periods();
+    check_rounding();
     check_beat();
     check_passages();
     check_autonomous();

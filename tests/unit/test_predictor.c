@@ -36,6 +36,7 @@ static void check_paper(void)
                   says_of("fig5-n50", "", PREDICTION_SQUEAL),
               "N = 2 and more: the forced motion reaches the disc's speed");
     tap_check(says("N0 1.8", PREDICTION_WATCH) && says("N0 1.9", PREDICTION_SQUEAL), "which begins at N = 1.84");
+    tap_check(says("N0 1.86", PREDICTION_WATCH), "next to it both are possible");
     tap_check(says("N0 10 alpha -0.02", PREDICTION_SQUEAL) && says_of("fig6-a0.02", "", PREDICTION_SQUEAL),
               "N |alpha| beyond c: permanent slip is unstable");
     tap_check(says("alpha -0.00999", PREDICTION_WATCH), "N |alpha| next to c: too close to call");
@@ -82,6 +83,10 @@ static void check_brake(void)
     prediction = predict(plants_preset("brake", "v0 1.1 N1 1500"));
     tap_check(prediction.verdict == PREDICTION_QUIET && !prediction.is_bistable, "brake: with less load not even that");
     tap_check(!predict(plants_preset("brake", "")).is_bistable, "brake: on the slope nothing is bistable");
+    tap_check(says("m 0.235 c 0.0707 v0 2.73 mu_s 0.314 alpha -0.062 ke 3.7 kt 0.229 k 0.869 N0 2.91 y0 0.787 "
+                   "mu_floor 0.1545",
+                   PREDICTION_WATCH),
+              "where the onset alone is kick enough, quiet is not promised");
     tap_check(says_of("groan", "N1 400", PREDICTION_QUIET) && says_of("groan", "", PREDICTION_SQUEAL) &&
                   says_of("groan", "v0 0.1", PREDICTION_QUIET),
               "groan: from 452 N, at creep only");

@@ -50,6 +50,18 @@ static void check_ends(void)
     tap_check(trial.end == TRIAL_WAS_WHOLE && trial_periods(&trial) == 440.0f, "and what was asked for whole");
 }
 
+/* Pressed on without a swing, the pad rides along for 60 periods until the spring holds mu N; then permanent slip is
+ * stable and takes the motion away. Before, it is as still as it can be, and nothing is known. */
+static void check_ride(void)
+{
+    try_preset("table1", "y0 1 v0 0.001 c 0.05 alpha 0", &usual);
+    tap_check(trial.has_event && trial.end == TRIAL_DECAYED && propensity() == PROPENSITY_QUIET,
+              "a pad that rides along is followed until it breaks loose and its motion dies out");
+    tap_check(trial_periods(&trial) < 400.0f, "well before the end of its span");
+    try_preset("table1", "y0 1 v0 0 x0 0.1 c 0.05", &usual);
+    tap_check(trial.end == TRIAL_DECAYED && trial.sim.output.v == 0, "under a stopped disc sticking is an end");
+}
+
 static void check_refusal(void)
 {
     const struct params params = plants_params("spp 16 ke 0.3");
@@ -115,6 +127,7 @@ static void check_onset(void)
 void test_trial(void)
 {
     check_ends();
+    check_ride();
     check_refusal();
     check_slices();
     check_growth("");
