@@ -23,7 +23,7 @@ static struct parts take_apart(float positive)
     struct parts parts = {(bits & FRACTION) | HIDDEN, (int)(bits >> 23) - 150};
 
     if (bits < HIDDEN) {
-        parts.significand = bits;
+        parts.significand = bits != 0u ? bits : 1u;
         parts.exponent = -149;
         while (parts.significand < HIDDEN) {
             parts.significand <<= 1;
@@ -143,8 +143,9 @@ float fmath_log2(float value)
 /* The series of e^(ln 2 rest) about 0, with |rest| <= 1/2. */
 float fmath_exp2(float value)
 {
-    const int32_t whole = fmath_round_i32(value);
-    const float x = (value - (float)whole) * 0.693147181f;
+    const float bounded = fmath_min(fmath_max(value, -126.0f), 127.0f);
+    const int32_t whole = fmath_round_i32(bounded);
+    const float x = (bounded - (float)whole) * 0.693147181f;
     float sum = 1.0f / 5040.0f;
 
     sum = sum * x + 1.0f / 720.0f;

@@ -2,6 +2,7 @@
 #include "protocol/commands.h"
 
 #include "base/compiler.h"
+#include "base/decimal.h"
 #include "protocol/console_parts.h"
 #include "protocol/report.h"
 #include "protocol/status.h"
@@ -53,6 +54,31 @@ void console_refuse_count(struct console *console, const char *key, struct token
     text_u64(console->text, high);
     text_write(console->text, ", a whole number");
     console_end(console);
+}
+
+bool console_read_number(struct console *console, const char *key, struct token word, float low, float high,
+                         float *value)
+{
+    if (word.length == 0u) {
+        console_refuse_usage(console);
+        return false;
+    }
+    if (!decimal_parse_f32(word.start, word.length, value)) {
+        console_refuse(console, ERROR_BAD_NUMBER, word, error_text(ERROR_BAD_NUMBER));
+        return false;
+    }
+    if (!(*value >= low && *value <= high)) {
+        console_begin_error(console, ERROR_OUT_OF_RANGE);
+        text_key_text(console->text, key, "");
+        token_write(console->text, word);
+        text_write(console->text, ": ");
+        text_shortest(console->text, low);
+        text_write(console->text, " .. ");
+        text_shortest(console->text, high);
+        console_end(console);
+        return false;
+    }
+    return true;
 }
 
 static void answer_plain(struct console *console)
@@ -260,6 +286,7 @@ void commands_obey(struct console *console)
     const struct command *command = find_command(name);
 
     console->arguments = token_next(name).start;
+    console->has_spent_stop = console->has_spent_stop && token_is(name, "stop");
     if (command == NULL) {
         console_refuse(console, ERROR_UNKNOWN_COMMAND, name, error_text(ERROR_UNKNOWN_COMMAND));
         return;

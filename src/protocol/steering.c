@@ -1,7 +1,8 @@
 /* input: what a controller would ask of the brake, by hand. */
-#include "base/decimal.h"
 #include "base/fmath.h"
 #include "protocol/console_parts.h"
+
+#define VALUE_MAX 1e12f /* beyond any brake; what the scale holds is asked later */
 
 static const struct kind {
     const char *word;
@@ -24,19 +25,6 @@ static const struct kind *find_kind(struct token word)
     return NULL;
 }
 
-static bool read_value(struct console *console, struct token word, float *value)
-{
-    if (word.length == 0u) {
-        console_refuse_usage(console);
-        return false;
-    }
-    if (!decimal_parse_f32(word.start, word.length, value)) {
-        console_refuse(console, ERROR_BAD_NUMBER, word, error_text(ERROR_BAD_NUMBER));
-        return false;
-    }
-    return true;
-}
-
 /* One force or speed; a second of the same is refused. */
 static bool read_kind(struct console *console, const struct kind *kind, struct token word, struct input_demand *demand)
 {
@@ -49,10 +37,10 @@ static bool read_kind(struct console *console, const struct kind *kind, struct t
     }
     if (is_load) {
         demand->load = kind->load;
-        return read_value(console, word, &demand->load_value);
+        return console_read_number(console, kind->word, word, -VALUE_MAX, VALUE_MAX, &demand->load_value);
     }
     demand->speed = kind->speed;
-    return read_value(console, word, &demand->speed_value);
+    return console_read_number(console, kind->word, word, -VALUE_MAX, VALUE_MAX, &demand->speed_value);
 }
 
 /* "profile", or "N|pressure|v0|vehicle <value> ...", then "at <step>" if wanted. */

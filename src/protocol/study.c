@@ -89,9 +89,11 @@ static void book_trial(struct study_tally *tally, const struct trial *trial)
 
     tally->by_propensity[sim->detector.verdict.propensity]++;
     tally->loud += trial_is_loud(trial) ? 1u : 0u;
+    tally->undecided += trial_is_undecided(trial) ? 1u : 0u;
     tally->diverged += trial->end == TRIAL_DIVERGED ? 1u : 0u;
     tally->caps += sim->counters.caps;
     tally->saturations += sim->counters.saturations;
+    tally->gap_held += sim->counters.gap_held;
     tally->steps += sim->step;
 }
 
@@ -149,10 +151,12 @@ void study_write_tally(struct text *text, const struct study_tally *tally)
         text_key_u64(text, detector_propensity_name(i), tally->by_propensity[i]);
     }
     text_key_u64(text, "loud", tally->loud);
+    text_key_u64(text, "undecided", tally->undecided);
     text_key_u64(text, "refused", tally->refused);
     text_key_u64(text, "diverged", tally->diverged);
     text_key_u64(text, "caps", tally->caps);
     text_key_u64(text, "saturations", tally->saturations);
+    text_key_u64(text, "gap_held", tally->gap_held);
     text_key_u64(text, "steps", tally->steps);
 }
 

@@ -23,10 +23,11 @@ enum { STUDY_SLICE_STEPS = 128 };
 struct study_tally {
     uint32_t trials; /* begun, and those refused */
     uint32_t by_propensity[4];
-    uint32_t loud;    /* squeals, or surely will: trial_is_loud() */
-    uint32_t refused; /* sets that the model cannot hold */
+    uint32_t loud;      /* squeals, or surely will: trial_is_loud() */
+    uint32_t undecided; /* neither, for want of proof: trial_is_undecided() */
+    uint32_t refused;   /* sets that the model cannot hold */
     uint32_t diverged;
-    uint32_t caps, saturations; /* of all trials, as in status */
+    uint32_t caps, saturations, gap_held; /* of all trials, as in status */
     uint64_t steps;
 };
 

@@ -1,5 +1,4 @@
 /* margin: how far from the border of squeal, parameter by parameter. */
-#include "base/decimal.h"
 #include "protocol/report.h"
 #include "protocol/study_parts.h"
 #include "protocol/values.h"
@@ -8,24 +7,6 @@ enum { BORDER_DIGITS = 6 };
 
 #define FACTOR_LOW 1.001f
 #define FACTOR_HIGH 1e6f
-
-/* "within <factor>" */
-static bool read_factor(struct console *console, struct token word, float *factor)
-{
-    if (word.length == 0u) {
-        console_refuse_usage(console);
-        return false;
-    }
-    if (!decimal_parse_f32(word.start, word.length, factor)) {
-        console_refuse(console, ERROR_BAD_NUMBER, word, error_text(ERROR_BAD_NUMBER));
-        return false;
-    }
-    if (!(*factor >= FACTOR_LOW && *factor <= FACTOR_HIGH)) {
-        console_refuse(console, ERROR_OUT_OF_RANGE, word, "within: 1.001 .. 1000000");
-        return false;
-    }
-    return true;
-}
 
 /* The parameter that was asked for; NULL for all. False if it is refused. */
 static bool read_parameter(struct console *console, struct token *word, const struct params_info **info)
@@ -69,7 +50,7 @@ void study_margin_obey(struct console *console)
     }
     if (token_is(word, "within")) {
         word = token_next(word);
-        if (!read_factor(console, word, &study.factor)) {
+        if (!console_read_number(console, "within", word, FACTOR_LOW, FACTOR_HIGH, &study.factor)) {
             return;
         }
         word = token_next(word);
@@ -149,6 +130,13 @@ static bool try_base(struct console *console)
     struct params_problem problem;
 
     if (!study_try(study, &study->margin.base, &problem)) {
+        return true;
+    }
+    if (problem.error != ERROR_OK) {
+        console_begin_error(console, problem.error);
+        values_write_problem(console->text, &problem, &study->margin.base, token_first(""));
+        console_end(console);
+        console_end_task(console);
         return true;
     }
     study->margin.has_base = true;

@@ -1,11 +1,8 @@
 /* occurrence: the share of squeal among brakes that differ a little. */
-#include "base/decimal.h"
 #include "base/fmath.h"
 #include "protocol/report.h"
 #include "protocol/study_parts.h"
 #include "protocol/values.h"
-
-enum { SEED_MAX = 0xffffff };
 
 /* The amount of this name; OCCURRENCE_AMOUNTS if there is none. */
 static enum occurrence_amount find_amount(struct token word)
@@ -16,23 +13,6 @@ static enum occurrence_amount find_amount(struct token word)
         i++;
     }
     return (enum occurrence_amount)i;
-}
-
-static bool read_spread(struct console *console, struct token word, float *spread)
-{
-    if (word.length == 0u) {
-        console_refuse_usage(console);
-        return false;
-    }
-    if (!decimal_parse_f32(word.start, word.length, spread)) {
-        console_refuse(console, ERROR_BAD_NUMBER, word, error_text(ERROR_BAD_NUMBER));
-        return false;
-    }
-    if (!(*spread >= 0.0f && *spread <= OCCURRENCE_SPREAD_MAX)) {
-        console_refuse(console, ERROR_OUT_OF_RANGE, word, "a relative spread: 0 .. 1");
-        return false;
-    }
-    return true;
 }
 
 /* "normal|uniform", "seed <n>", "<amount> <spread>" in any order; *word moves past them. */
@@ -47,12 +27,13 @@ static bool read_scatter(struct console *console, struct token *word, struct occ
             occurrence->is_uniform = token_is(*word, "uniform");
         } else if (token_is(*word, "seed")) {
             *word = token_next(*word);
-            if (!study_read_count(console, "seed", *word, 0u, SEED_MAX, &occurrence->seed)) {
+            if (!study_read_count(console, "seed", *word, 0u, OCCURRENCE_SEED_MAX, &occurrence->seed)) {
                 return false;
             }
         } else if (amount != OCCURRENCE_AMOUNTS) {
             *word = token_next(*word);
-            if (!read_spread(console, *word, &occurrence->spread[amount])) {
+            if (!console_read_number(console, occurrence_name(amount), *word, 0.0f, OCCURRENCE_SPREAD_MAX,
+                                     &occurrence->spread[amount])) {
                 return false;
             }
             has_spread = true;

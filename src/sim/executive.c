@@ -68,28 +68,41 @@ static void take_order(struct executive *executive)
     write_report(executive);
 }
 
-/* New demands find their places. What belongs to the run before a reset is void. */
-static void collect_inputs(struct executive *executive)
+static void take_input(struct executive *executive, const struct input *input)
 {
-    struct input input;
-
-    while (executive->inputs_waiting.count < INPUT_QUEUE_MAX && ring_pop(&executive->inputs, &input)) {
-        if (input.epoch == executive->in_force.epoch) {
-            input_queue_put(&executive->inputs_waiting, &input);
-        }
-    }
+    executive->inputs_taken++;
+    executive->inputs_late += input->step != INPUT_NOW && input->step < executive->sim.step ? 1u : 0u;
+    sim_input(&executive->sim, input);
 }
 
 /* Those whose step has come. */
-static void take_inputs(struct executive *executive)
+static void take_due_inputs(struct executive *executive)
 {
     struct input input;
 
     while (input_queue_take(&executive->inputs_waiting, executive->sim.step, &input)) {
-        executive->inputs_taken++;
-        executive->inputs_late += input.step != INPUT_NOW && input.step < executive->sim.step ? 1u : 0u;
-        sim_input(&executive->sim, &input);
+        take_input(executive, &input);
     }
+    word_write(&executive->inputs_queued, executive->inputs_waiting.count);
+}
+
+/* New demands take hold or find their places, for which main keeps room. What belongs to the run before a reset is void. */
+static void collect_inputs(struct executive *executive)
+{
+    struct input input;
+
+    take_due_inputs(executive);
+    while (ring_pop(&executive->inputs, &input)) {
+        if (input.epoch != executive->in_force.epoch) {
+            continue;
+        }
+        if (input.step <= executive->sim.step) {
+            take_input(executive, &input);
+        } else {
+            input_queue_put(&executive->inputs_waiting, &input);
+        }
+    }
+    word_write(&executive->inputs_queued, executive->inputs_waiting.count);
 }
 
 static uint32_t steps_due(const struct executive *executive)
@@ -105,6 +118,7 @@ bool executive_tick(struct executive *executive, bool is_due)
     bool has_news = false;
 
     take_order(executive);
+    collect_inputs(executive); /* none comes meanwhile */
     if (!is_due) {
         return false;
     }
@@ -114,10 +128,9 @@ bool executive_tick(struct executive *executive, bool is_due)
         return false;
     }
     steps = steps_due(executive);
-    collect_inputs(executive); /* none comes meanwhile */
     for (uint32_t i = 0u; i < steps; i++) {
         if (executive->inputs_waiting.count != 0u) {
-            take_inputs(executive);
+            take_due_inputs(executive);
         }
         has_news = sim_step(&executive->sim) || has_news;
         if (executive->in_force.sample_every != 0u && --executive->until_sample == 0u) {
@@ -248,6 +261,13 @@ void executive_measure(struct executive *executive, uint64_t steps)
     give_order(executive);
 }
 
+/* The interrupt only makes room meanwhile. What is for now needs no place to wait in. */
+static bool has_place(const struct executive *executive, const struct input_demand *demand)
+{
+    return demand->step == INPUT_NOW ||
+           word_read(&executive->inputs_queued) + ring_fill(&executive->inputs) < INPUT_QUEUE_MAX;
+}
+
 bool executive_input(struct executive *executive, const struct input_demand *demand, bool *is_clamped)
 {
     const struct sim_plan *plan = &executive->draft.plan;
@@ -255,7 +275,8 @@ bool executive_input(struct executive *executive, const struct input_demand *dem
     const bool was_clamped = input_derive(&input, demand, &plan->params, &plan->scale);
 
     input.epoch = executive->draft.epoch;
-    if (!ring_push(&executive->inputs, &input)) {
+    if (!has_place(executive, demand) || !ring_push(&executive->inputs, &input)) {
+        executive->inputs_refused++;
         return false;
     }
     executive->inputs_clamped += was_clamped ? 1u : 0u;

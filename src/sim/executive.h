@@ -22,7 +22,7 @@
 
 enum {
     EXECUTIVE_SAMPLES = 512,         /* records between interrupt and main */
-    EXECUTIVE_INPUTS = 8,            /* demands of a controller on their way to the interrupt */
+    EXECUTIVE_INPUTS = 64,           /* demands of a controller on their way to the interrupt */
     EXECUTIVE_GRANT_MAX = 1000000000 /* steps of credit at a time */
 };
 
@@ -82,15 +82,17 @@ struct executive {
     struct ring inputs;
 
     /* single words, one writer each */
-    struct word granted; /* main: steps granted so far */
-    struct word used;    /* interrupt: steps of it used */
-    struct word is_free; /* main: endless credit */
+    struct word granted;       /* main: steps granted so far */
+    struct word used;          /* interrupt: steps of it used */
+    struct word is_free;       /* main: endless credit */
+    struct word inputs_queued; /* interrupt: demands that wait for their step */
 
     /* main's own */
     float arithmetic;             /* of the defaults on this board */
     struct executive_order draft; /* last order given */
     struct scale scales[2];       /* by epoch & 1, for samples that are still on their way */
     uint32_t inputs_clamped;      /* demands held at a limit, since the start */
+    uint32_t inputs_refused;      /* demands for which there was no place, since the start */
 };
 
 /* Starts with the defaults in the given number format (ARITH_F32 or ARITH_Q27), which is the board's; the plant stands at
@@ -116,8 +118,9 @@ void executive_stream(struct executive *executive, uint32_t every);
 /* Orders a measurement over n steps from here, without granting them. [MAIN] */
 void executive_measure(struct executive *executive, uint64_t steps);
 
-/* Hands over a controller's demand, to be taken before its step, in whatever order. A reset voids what waits, and the
- * profiles act again. False if as many wait as can: nothing is handed over then, and the ring has counted it. *is_clamped (may be NULL) tells whether a limit held it. [MAIN] */
+/* Hands over a controller's demand, to be taken before its step, in whatever order; up to INPUT_QUEUE_MAX wait. A reset voids
+ * what waits, and the profiles act again. False if there is no place: nothing is handed over then, and it is counted.
+ * *is_clamped (may be NULL) tells whether a limit held it. [MAIN] */
 bool executive_input(struct executive *executive, const struct input_demand *demand, bool *is_clamped);
 
 /* Credit: n more steps (at most EXECUTIVE_GRANT_MAX outstanding), endless, or none any more. [MAIN] */

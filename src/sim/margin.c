@@ -206,6 +206,10 @@ enum margin_way margin_quiets(const struct margin *margin)
     if (side == DONE) {
         return margin->is_loud ? MARGIN_NO_WAY : MARGIN_ANY;
     }
+    if (!margin->is_loud && margin->value == 0.0f && margin->sides[BELOW].has_border &&
+        margin->sides[ABOVE].has_border) {
+        return MARGIN_NO_WAY;
+    }
     return (side == BELOW) == margin->is_loud ? MARGIN_DOWN : MARGIN_UP;
 }
 

@@ -4,10 +4,7 @@
 #include "base/fmath.h"
 #include "base/random.h"
 
-enum {
-    STREAM = 0x6f636375, /* "occu": draws have nothing in common with the disc's surface of the same seed */
-    SEED_MASK = 0xffffff /* what a parameter holds exactly */
-};
+enum { STREAM = 0x6f636375 }; /* "occu": draws have nothing in common with the disc's surface of the same seed */
 
 #define DEVIATIONS_95 1.95996398f
 
@@ -42,15 +39,18 @@ void occurrence_draw(const struct occurrence *occurrence, uint32_t index, struct
     for (uint32_t i = 0u; i < OCCURRENCE_AMOUNTS; i++) {
         factors[i] = 1.0f + occurrence->spread[i] * deviation(occurrence, i, index);
     }
-    factors[OCCURRENCE_LOAD] = fmath_max(factors[OCCURRENCE_LOAD], 0.0f);
+    if (factors[OCCURRENCE_LOAD] < 0.0f) {
+        factors[OCCURRENCE_LOAD] = 0.0f;
+        draw->clamped++;
+    }
     draw->values[OCCURRENCE_FRICTION] = scale_one(draw, "mu_s", 4u, factors[OCCURRENCE_FRICTION]);
     draw->values[OCCURRENCE_SLOPE] = scale_one(draw, "alpha", 5u, factors[OCCURRENCE_SLOPE]);
     draw->values[OCCURRENCE_DAMPING] = scale_one(draw, "c", 1u, factors[OCCURRENCE_DAMPING]);
     draw->values[OCCURRENCE_LOAD] = factors[OCCURRENCE_LOAD];
     (void)scale_one(draw, "N0", 2u, factors[OCCURRENCE_LOAD]);
     (void)scale_one(draw, "N1", 2u, factors[OCCURRENCE_LOAD]);
-    draw->params.seed =
-        (float)(random_words(occurrence->seed, (uint32_t)STREAM + OCCURRENCE_AMOUNTS, index).first & SEED_MASK);
+    draw->params.seed = (float)(random_words(occurrence->seed, (uint32_t)STREAM + OCCURRENCE_AMOUNTS, index).first &
+                                OCCURRENCE_SEED_MAX);
 }
 
 void occurrence_interval(uint32_t k, uint32_t n, float *low, float *high)

@@ -20,7 +20,10 @@ enum occurrence_amount {
     OCCURRENCE_AMOUNTS
 };
 
-enum { OCCURRENCE_TRIALS_MAX = 100000 };
+enum {
+    OCCURRENCE_TRIALS_MAX = 100000,
+    OCCURRENCE_SEED_MAX = 0xffffff /* what a parameter holds exactly */
+};
 
 #define OCCURRENCE_SPREAD_DEFAULT 0.1f
 #define OCCURRENCE_SPREAD_MAX 1.0f

@@ -27,7 +27,11 @@ float scan_axis_value(const struct scan_axis *axis, uint32_t place)
     }
     share = (float)place / (float)(axis->points - 1u);
     if (axis->is_log) {
-        value = axis->from * fmath_exp2(share * fmath_log2(axis->to / axis->from));
+        /* In two halves, neither of which leaves the numbers: the ends may be further apart than single precision is wide. */
+        const float half =
+            fmath_exp2(0.5f * share * (fmath_log2(fmath_abs(axis->to)) - fmath_log2(fmath_abs(axis->from))));
+
+        value = axis->from * half * half;
     } else {
         value = axis->from + (axis->to - axis->from) * share;
     }

@@ -41,6 +41,8 @@ struct params_problem sim_plan_make(struct sim_plan *plan, const struct params *
     profile_q27_derive(&plan->load_q27, &plan->load);
     profile_q27_derive(&plan->speed_q27, &plan->speed);
     texture_derive(&plan->texture, params, &plan->scale);
+    plan->load_limit = 1.0f / scale_peak_factor(params);
+    plan->load_limit_q27 = to_q27(plan->load_limit);
     plan->detector = detector_config(params, &plan->scale);
     plan->prediction = predictor_predict(params, &plan->scale);
     return problem;
@@ -164,13 +166,37 @@ void sim_reset(struct sim *sim, const struct sim_plan *plan)
     detector_reset(&sim->detector, &plan->detector, &sim->output);
 }
 
-void sim_apply(struct sim *sim, const struct sim_plan *plan)
+/* A sine of the load explains nothing while a controller holds the load. */
+static struct detector_config detector_config_now(const struct sim *sim)
 {
-    sim->plan = plan;
-    detector_restart(&sim->detector, &plan->detector);
+    struct detector_config config = sim->plan->detector;
+
+    if (sim->input.holds_load) {
+        config.load_speed = 0;
+        config.load_response = 0;
+    }
+    return config;
 }
 
-void sim_input(struct sim *sim, const struct input *input) { input_take(&sim->input, input); }
+void sim_apply(struct sim *sim, const struct sim_plan *plan)
+{
+    struct detector_config config;
+
+    sim->plan = plan;
+    config = detector_config_now(sim);
+    if (sim->input.holds_load && sim->input.load > plan->load_limit) {
+        sim->input.load = plan->load_limit;
+        sim->input.load_q27 = plan->load_limit_q27;
+        sim->counters.lowered++;
+    }
+    detector_restart(&sim->detector, &config);
+}
+
+void sim_input(struct sim *sim, const struct input *input)
+{
+    input_take(&sim->input, input);
+    sim->detector.config = detector_config_now(sim);
+}
 
 /* The place inside the step is by a straight line: a diverging plant needs many steps to pass the mark. */
 static void watch_v10(struct sim *sim, int32_t v_before)

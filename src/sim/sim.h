@@ -28,6 +28,8 @@ struct sim_plan {
     struct profile load, speed;
     struct profile_q27 load_q27, speed_q27;
     struct texture texture;
+    float load_limit; /* of a force held by a controller, under this texture */
+    int32_t load_limit_q27;
     struct detector_config detector;
     struct prediction prediction;
 };
@@ -42,6 +44,7 @@ struct sim_counters {
     uint32_t saturations; /* steps whose output did not fit its numbers */
     uint32_t lifted;      /* steps with lost contact, y < 0 */
     uint32_t gap_held;    /* steps in which the gap was held at its limit */
+    uint32_t lowered;     /* times that a new set lowered a held force to its limit */
 };
 
 enum sim_fault { SIM_FAULT_NONE, SIM_FAULT_DOMAIN };

@@ -13,12 +13,23 @@ enum {
 };
 
 #define LN2 0.693147181f
+#define TOUCH_MARGIN 0.95f /* as the predictor's */
 #define ERROR_DEVIATIONS 3.0f
 #define WANDER_LEAST 0.02f /* of the ratio: beyond it so few frames say nothing more */
 
 static uint64_t periods_to_steps(const struct trial *trial, uint32_t periods)
 {
     return (uint64_t)periods * trial->plan.scale.steps_per_period;
+}
+
+/* Step from which on the profiles stand still; a sine never does, and one that takes for ever is not waited for. */
+static uint64_t settled_step(const struct trial *trial)
+{
+    const uint64_t most = periods_to_steps(trial, TRIAL_PERIODS_MAX);
+    const uint64_t load = trial->plan.load.kind == PROFILE_SINE ? 0u : trial->plan.load.end;
+    const uint64_t last = load > trial->plan.speed.end ? load : trial->plan.speed.end;
+
+    return last < most ? last : most;
 }
 
 struct params_problem trial_begin(struct trial *trial, const struct params *params, const struct trial_span *span)
@@ -44,7 +55,7 @@ struct params_problem trial_begin(struct trial *trial, const struct params *para
     trial->has_flag = false;
     trial->has_onset = false;
     trial->onset_step = 0u;
-    trial->until = periods_to_steps(trial, span->transient);
+    trial->until = settled_step(trial) + periods_to_steps(trial, span->transient);
     return problem;
 }
 
@@ -91,6 +102,15 @@ static bool decays(const struct detector_verdict *verdict)
            (!verdict->has_growth || verdict->growth_q16 < -verdict->growth_error_q16);
 }
 
+/* The steady motion that the load forces is far from touching the disc, or the disc stands: only then is decay the whole
+ * story. */
+static bool stays_off(const struct trial *trial)
+{
+    const struct prediction *prediction = &trial->plan.prediction;
+
+    return prediction->verdict == PREDICTION_UNKNOWN || prediction->touch_ratio < TOUCH_MARGIN;
+}
+
 /* The end that this frame promises, if it does. */
 static uint8_t promise(const struct trial *trial)
 {
@@ -102,7 +122,8 @@ static uint8_t promise(const struct trial *trial)
     if (verdict->propensity == PROPENSITY_SQUEAL && verdict->period != 0u) {
         return TRIAL_SQUEALED;
     }
-    if (verdict->propensity == PROPENSITY_QUIET && trial->plan.prediction.rate < 0.0f && decays(verdict)) {
+    if (verdict->propensity == PROPENSITY_QUIET && trial->plan.prediction.rate < 0.0f && stays_off(trial) &&
+        decays(verdict)) {
         return TRIAL_DECAYED;
     }
     return TRIAL_RUNS;
@@ -125,7 +146,7 @@ static void end_if_growth_is_sure(struct trial *trial)
     float error;
 
     if (slips_on(trial) && trial->line.count >= LINE_BRIEF && trial_growth(trial, &growth, &error) &&
-        fmath_abs(growth) > error) {
+        fmath_abs(growth) > error && (growth > 0.0f || stays_off(trial))) {
         trial->end = growth > 0.0f ? TRIAL_GREW : TRIAL_DECAYED;
         trial->is_over = true;
     }
@@ -138,7 +159,7 @@ static void take_frame(struct trial *trial)
 
     trial->settled = is_settled(trial) ? trial->settled + 1u : 0u;
     book_growth(trial);
-    if (trial->span.is_brief && !trial->is_measuring) {
+    if (trial->span.is_brief && !trial->span.is_whole && !trial->is_measuring) {
         end_if_growth_is_sure(trial);
     }
     trial->sure = promised == trial->promised ? trial->sure + 1u : 1u;
@@ -253,6 +274,15 @@ bool trial_is_loud(const struct trial *trial)
     }
     return trial->sim.detector.verdict.propensity == PROPENSITY_SQUEAL ||
            (slips_on(trial) && trial_growth(trial, &growth, &error) && growth > error);
+}
+
+bool trial_is_undecided(const struct trial *trial)
+{
+    float growth;
+    float error;
+
+    return trial->end == TRIAL_WAS_WHOLE && trial->sim.detector.verdict.propensity != PROPENSITY_SQUEAL &&
+           slips_on(trial) && trial_growth(trial, &growth, &error) && fmath_abs(growth) <= error;
 }
 
 const char *trial_end_name(uint8_t end)

@@ -5,7 +5,8 @@
  *
  * The transient is cut short in three cases only. The plant left its domain: there is no window then. It squeals in a
  * motion that repeats, found twice in a row after the profiles have come to rest. Or what is free in its motion decays, in
- * two frames in a row, and the closed form says that it must. A sine of the load is never at rest.
+ * two frames in a row, and the closed form says that it must and that the motion left stays off the disc. A sine of
+ * the load is never at rest.
  *
  * Who asks for a border or a share only wants to know on which side a set lies: with is_brief a trial is over, without a window, as
  * soon as the growth of the free motion is known beyond its error. */
@@ -26,7 +27,7 @@ enum {
     TRIAL_PAUSE_PERIODS = 32 /* without a change of regime: what comes then is a new onset */
 };
 
-/* How long to look, in normal periods. */
+/* How long to look, in normal periods; the transient counts from when the profiles have come to rest. */
 struct trial_span {
     uint32_t transient, window;
     bool is_whole; /* never cut the transient short */
@@ -82,6 +83,9 @@ bool trial_growth(const struct trial *trial, float *growth, float *error);
 
 /* Does the set squeal, or will it: by the verdict, or by a growth beyond its error? Of a trial that is over. [MAIN] */
 bool trial_is_loud(const struct trial *trial);
+
+/* Was the growth within its error to the end, without squeal? Then is_loud is false for want of proof. [MAIN] */
+bool trial_is_undecided(const struct trial *trial);
 
 /* The word of the protocol for enum trial_end. [MAIN] */
 const char *trial_end_name(uint8_t end);

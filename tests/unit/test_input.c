@@ -71,7 +71,7 @@ static void check_steps(void)
     tap_check_close(load_newton(), 4.0f, 0.0f, "until the next");
     tap_check(demand(5.0f, 3u) && demand(6.0f, INPUT_NOW), "one that is late, one for now");
     run(1u);
-    tap_check_close(load_newton(), 5.0f, 0.0f, "are taken at once, by their steps");
+    tap_check_close(load_newton(), 6.0f, 0.0f, "are taken at once, in the order in which they came");
     tap_check(executive.inputs_taken == 4u && executive.inputs_late == 1u, "and counted");
     (void)demand(7.0f, 1000u);
     (void)plants_order(&executive, "N0 2 N_max 8 spp 128", true, NULL);
@@ -87,17 +87,59 @@ static void check_full(void)
     plants_executive(&executive, "N0 2 N_max 8");
     while (taken < 100u && demand(3.0f, 1000u)) {
         taken++;
+        if (taken % 3u == 0u) {
+            run(1u);
+        }
     }
-    tap_check(taken == EXECUTIVE_INPUTS && executive.inputs.dropped == 1u,
-              "as many as fit on the way, the next is refused");
+    tap_check(taken == INPUT_QUEUE_MAX && executive.inputs_refused == 1u, "as many as can wait, the next is refused");
+    tap_check(demand(5.0f, INPUT_NOW), "but not one for now");
     run(1u);
-    while (taken < 100u && demand(3.0f, 1000u)) {
-        taken++;
-        run(1u);
-    }
-    tap_check(taken == INPUT_QUEUE_MAX + EXECUTIVE_INPUTS, "as many as can wait, and on the way");
-    run(1000u);
-    tap_check(executive.inputs_taken == taken, "none of which is lost");
+    tap_check_close(load_newton(), 5.0f, 0.0f, "which is taken at once");
+    run(1100u);
+    tap_check(executive.inputs_taken == taken + 1u && executive.inputs_late == 0u, "none of all is lost");
+    tap_check(demand(6.0f, 5000u) && demand(7.0f, 5000u), "two for the same step");
+    run(5000u - (uint32_t)executive.sim.step + 1u);
+    tap_check_close(load_newton(), 7.0f, 0.0f, "the later one holds");
+}
+
+static void check_reset(void)
+{
+    plants_executive(&executive, "N0 2 N_max 8");
+    (void)demand(3.0f, 1u);
+    run(3u);
+    (void)demand(4.0f, 1u);
+    run(1u);
+    tap_check(executive.inputs_late == 1u, "one late");
+    (void)demand(5.0f, 50u);
+    run(1u);
+    (void)demand(6.0f, INPUT_NOW);
+    (void)plants_order(&executive, "N0 2 N_max 8 spp 128", true, NULL);
+    executive_tick(&executive, false);
+    tap_check(executive.inputs_late == 0u && executive.inputs_taken == 0u && executive.inputs_waiting.count == 0u,
+              "a reset begins the count anew");
+    run(100u);
+    tap_check_close(load_newton(), 2.0f, 0.0f, "and voids what waited and what was on its way");
+    (void)demand(7.0f, INPUT_NOW);
+    (void)plants_order(&executive, "N0 3 N_max 8 spp 128", false, NULL);
+    run(1u);
+    tap_check_close(load_newton(), 7.0f, 0.0f, "a live change voids nothing");
+    (void)plants_order(&executive, "N0 3 N_max 8 spp 128 rough 0.1 runout 0.5", false, NULL);
+    run(1u);
+    tap_check(executive.sim.input.load * 8.0f < 4.8f && executive.sim.counters.lowered == 1u,
+              "but lowers a force that a new surface would lift beyond the scale");
+}
+
+/* A sine of the load explains no motion while a controller holds the load. */
+static void check_share(void)
+{
+    plants_executive(&executive, "N0 2 N1 1 load sine fN 0.2 N_max 8");
+    tap_check(executive.sim.detector.config.load_response > 0, "a sine explains motion");
+    (void)demand(2.0f, INPUT_NOW);
+    run(1u);
+    tap_check(executive.sim.detector.config.load_response == 0, "a held load has none");
+    (void)plants_order(&executive, "N0 2 N1 1 load sine fN 0.2 N_max 8 c 0.02", false, NULL);
+    run(1u);
+    tap_check(executive.sim.detector.config.load_response == 0, "after a new set either");
 }
 
 /* The same demands at the same steps, with other ticks and grants. */
@@ -154,6 +196,8 @@ void test_input(void)
     check_units();
     check_steps();
     check_full();
+    check_reset();
+    check_share();
     check_bits();
     check_console();
 }

@@ -12,8 +12,8 @@ static void check_scan(void)
     (void)bench_say("preset brake\r");
     bench_listen_anew();
     tap_check(bench_starts(bench_say("scan N1 1000 3000 3 alpha -0.05 -0.03 2 transient 1000\r"),
-                           "ok scan trials=6 unknown=0 quiet=5 watch=0 squeal=1 loud=1 refused=0 diverged=0 "
-                           "caps=0 saturations=0 steps="),
+                           "ok scan trials=6 unknown=0 quiet=5 watch=0 squeal=1 loud=1 undecided=0 refused=0 "
+                           "diverged=0 caps=0 saturations=0 gap_held=0 steps="),
               "a map of six points is counted");
     tap_check(
         hears("- point done=1 of=6 i=0 j=0 N1=1000 alpha=-0.05 propensity=quiet class=rest period=0 amplitude_um=") &&
@@ -52,13 +52,13 @@ static void check_refusals(void)
         {"scan arith f32 f64 2\r", "error out-of-range arith=f64: f32|q27"},
         {"occurrence 0\r", "error out-of-range trials=0: 1 .. 100000, a whole number"},
         {"occurrence\r", "error usage occurrence"},
-        {"occurrence 5 N 2\r", "error out-of-range 2: a relative spread: 0 .. 1"},
+        {"occurrence 5 N 2\r", "error out-of-range N=2: 0 .. 1"},
         {"occurrence 5 N\r", "error usage occurrence"},
         {"occurrence 5 m 0.1\r", "error usage occurrence"},
         {"occurrence 5 seed -1\r", "error out-of-range seed=-1: 0 .. 16777215, a whole number"},
         {"margin nothing\r", "error unknown-name nothing: "},
         {"margin spp\r", "error not-served spp: margin takes "},
-        {"margin N0 within 1\r", "error out-of-range 1: within: 1.001 .. 1000000"},
+        {"margin N0 within 1\r", "error out-of-range within=1: 1.001 .. 1000000"},
         {"margin N0 within a\r", "error bad-number a: "},
         {"margin N0 within\r", "error usage margin"},
         {"margin N0 far\r", "error usage margin"},

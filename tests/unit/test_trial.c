@@ -35,7 +35,7 @@ static void check_ends(void)
     try_preset("brake", "", &usual);
     tap_check(trial.end == TRIAL_SQUEALED && propensity() == PROPENSITY_SQUEAL,
               "squeal that repeats ends the transient");
-    tap_check(trial.sim.measure.done == 40u * 64u && trial_periods(&trial) < 400.0f,
+    tap_check(trial.sim.measure.done == 40u * 64u && trial_periods(&trial) < 500.0f,
               "the window is measured whole all the same");
     try_preset("brake", "N1 1000", &usual);
     tap_check(trial.end == TRIAL_DECAYED && propensity() == PROPENSITY_QUIET, "so does decay");
@@ -47,7 +47,8 @@ static void check_ends(void)
     try_preset("brake", "load sine N0 3000 N1 100 fN 100", &usual);
     tap_check(trial.end == TRIAL_WAS_WHOLE, "so does a sine of the load");
     try_preset("brake", "", &whole);
-    tap_check(trial.end == TRIAL_WAS_WHOLE && trial_periods(&trial) == 440.0f, "and what was asked for whole");
+    tap_check(trial.end == TRIAL_WAS_WHOLE && trial_periods(&trial) > 440.0f + 145.0f,
+              "and what was asked for whole, counted from the end of the ramp");
 }
 
 /* Pressed on without a swing, the pad rides along for 60 periods until the spring holds mu N; then permanent slip is
@@ -57,7 +58,7 @@ static void check_ride(void)
     try_preset("table1", "y0 1 v0 0.001 c 0.05 alpha 0", &usual);
     tap_check(trial.has_event && trial.end == TRIAL_DECAYED && propensity() == PROPENSITY_QUIET,
               "a pad that rides along is followed until it breaks loose and its motion dies out");
-    tap_check(trial_periods(&trial) < 400.0f, "well before the end of its span");
+    tap_check(trial_periods(&trial) < 500.0f, "well before the end of its span");
     try_preset("table1", "y0 1 v0 0 x0 0.1 c 0.05", &usual);
     tap_check(trial.end == TRIAL_DECAYED && trial.sim.output.v == 0, "under a stopped disc sticking is an end");
 }
