@@ -88,6 +88,15 @@ static void check_limits(void)
     tap_check(!margin.sides[0].has_border && is_bracket(&margin.sides[1], 0.01f), "and stays where there is something");
 }
 
+static void check_way(void)
+{
+    search("v0 0", "v0", -1e-9f, 1e-9f, 1e9f);
+    margin.is_loud = false;
+    margin.sides[0] = (struct margin_side){.has_border = true, .quiet = -1.0f, .loud = -1.1f};
+    margin.sides[1] = (struct margin_side){.has_border = true, .quiet = 1.0f, .loud = 1.1f};
+    tap_check(margin_quiets(&margin) == MARGIN_NO_WAY, "from 0, with squeal on either side, no way is out");
+}
+
 static void check_cover(void)
 {
     const struct params table = plants_params("");
@@ -106,5 +115,6 @@ void test_margin(void)
 {
     check_borders();
     check_limits();
+    check_way();
     check_cover();
 }

@@ -6,6 +6,8 @@
 #include "tap.h"
 #include "tests.h"
 
+static const float look_values[OCCURRENCE_AMOUNTS] = {0.42f, -0.06f, 120.0f, 1.0f};
+
 enum { DRAWS = 4000, FIRST_BITS = 0x3eff54f7 };
 
 static struct occurrence brake_with(bool is_uniform, float spread)
@@ -42,7 +44,6 @@ static void look(const struct occurrence *occurrence, uint32_t amount, float val
 
 static void check_scatter(void)
 {
-    static const float values[OCCURRENCE_AMOUNTS] = {0.42f, -0.06f, 120.0f, 1.0f};
     const struct occurrence uniform = brake_with(true, 0.1f);
     const struct occurrence normal = brake_with(false, 0.1f);
     float mean;
@@ -50,13 +51,35 @@ static void check_scatter(void)
     float most;
 
     for (uint32_t i = 0u; i < OCCURRENCE_AMOUNTS; i++) {
-        look(&uniform, i, values[i], &mean, &rms, &most);
+        look(&uniform, i, look_values[i], &mean, &rms, &most);
         tap_check(fmath_abs(mean - 1.0f) < 3e-3f && fmath_abs(rms - 0.057735f) < 1e-3f && most < 0.1001f &&
                       most > 0.0995f,
                   occurrence_name((enum occurrence_amount)i));
-        look(&normal, i, values[i], &mean, &rms, &most);
+        look(&normal, i, look_values[i], &mean, &rms, &most);
         tap_check(fmath_abs(mean - 1.0f) < 5e-3f && fmath_abs(rms - 0.1f) < 4e-3f && most > 0.3f && most < 0.5f,
                   "and normally distributed");
+    }
+}
+
+/* The amounts are drawn independently of each other. */
+static void check_independence(void)
+{
+    const struct occurrence occurrence = brake_with(true, 0.1f);
+    float product[OCCURRENCE_AMOUNTS] = {0.0f};
+    struct occurrence_draw draw;
+
+    for (uint32_t i = 0u; i < DRAWS; i++) {
+        occurrence_draw(&occurrence, i, &draw);
+        for (uint32_t k = 0u; k < OCCURRENCE_AMOUNTS; k++) {
+            const uint32_t next = (k + 1u) % OCCURRENCE_AMOUNTS;
+            const float a = draw.values[k] / look_values[k] - 1.0f;
+            const float b = draw.values[next] / look_values[next] - 1.0f;
+
+            product[k] += a * b * 300.0f / (float)DRAWS;
+        }
+    }
+    for (uint32_t k = 0u; k < OCCURRENCE_AMOUNTS; k++) {
+        tap_check(fmath_abs(product[k]) < 0.06f, "two amounts have nothing to do with each other");
     }
 }
 
@@ -80,6 +103,20 @@ static void check_draws(void)
     occurrence_draw(&other, 5u, &draw);
     tap_check(first.params.load_end_n != draw.params.load_end_n, "and on the seed");
     tap_check(fmath_bits(first.params.friction_static_ratio) == FIRST_BITS, "the same bits on every machine");
+    other.base = plants_params("N0 10");
+    occurrence_draw(&other, 5u, &draw);
+    tap_check_close(draw.params.load_n, 10.0f * draw.values[OCCURRENCE_LOAD], 1e-4f, "where it is constant too");
+    other = brake_with(false, 1.0f);
+    for (uint32_t k = 0u; k < OCCURRENCE_LOAD; k++) {
+        other.spread[k] = 0.0f;
+    }
+    for (uint32_t i = 0u; i < 60u; i++) {
+        occurrence_draw(&other, i, &draw);
+        if (draw.values[OCCURRENCE_LOAD] == 0.0f) {
+            break;
+        }
+    }
+    tap_check(draw.values[OCCURRENCE_LOAD] == 0.0f && draw.clamped > 0u, "a load below 0 is held there and counted");
     other = brake_with(false, 1.0f);
     for (uint32_t i = 0u; i < 20u; i++) {
         occurrence_draw(&other, i, &draw);
@@ -110,6 +147,7 @@ static void check_interval(void)
 void test_occurrence(void)
 {
     check_scatter();
+    check_independence();
     check_draws();
     check_interval();
 }

@@ -38,6 +38,26 @@ static void check_axis(void)
     tap_check(scan_axis_value(&one, 0u) == 2.0f, "one point is the first value");
 }
 
+/* Ends as far apart as the numbers are. */
+static void check_extremes(void)
+{
+    const struct scan_axis wide = axis_of("N0", 1e-30f, 1e9f, 4u, true);
+    const struct scan_axis down = axis_of("yd0", 1e6f, 1e-38f, 128u, true);
+    const struct scan_axis below = axis_of("mu_floor", -1e30f, -1e-20f, 256u, true);
+    bool is_falling = true;
+    bool is_rising = true;
+
+    tap_check_close(scan_axis_value(&wide, 1u) * 1e17f, 1.0f, 1e-5f, "a third of 39 decades");
+    tap_check_close(scan_axis_value(&wide, 2u) * 1e4f, 1.0f, 1e-5f, "two thirds");
+    for (uint32_t i = 1u; i < 128u; i++) {
+        is_falling = is_falling && scan_axis_value(&down, i) < scan_axis_value(&down, i - 1u);
+    }
+    for (uint32_t i = 1u; i < 256u; i++) {
+        is_rising = is_rising && scan_axis_value(&below, i) > scan_axis_value(&below, i - 1u);
+    }
+    tap_check(is_falling && is_rising, "over all numbers, in order and inside the ends");
+}
+
 static void check_refusals(void)
 {
     const struct scan_axis good = axis_of("alpha", -0.1f, -0.001f, 3u, true);
@@ -74,6 +94,7 @@ static void check_grid(void)
 void test_scan(void)
 {
     check_axis();
+    check_extremes();
     check_refusals();
     check_grid();
 }

@@ -74,6 +74,17 @@ static void check_refusals(void)
     tap_check(is_silent, "nothing is tried before a refusal");
 }
 
+/* A set that has no scale is the answer, not what the last trial said. */
+static void check_margin_refused(void)
+{
+    bench_open();
+    (void)bench_say("set N0 10 alpha -0.02\rscan N0 10 10 1\rstep 64\rset N0 0 v0 0\r");
+    tap_check(bench_starts(bench_say("margin\r"), "error no-scale"), "a set that cannot be tried is the answer");
+    tap_check(bench_starts(bench_say("occurrence 3\r"), "ok occurrence share=nan low=0 high=1 ") &&
+                  bench_holds(bench.last, " trials=3 ") && bench_holds(bench.last, " refused=3 "),
+              "nothing tried, nothing known");
+}
+
 static void check_margin(void)
 {
     bench_open();
@@ -153,6 +164,13 @@ static void check_stop(void)
     tap_check(!executive_wants_tick(&bench.executive), "until the next one");
     tap_check(bench_starts(bench_say("scan N0 1 2 2 transient 0 window 8\r"), "ok scan trials=2 "),
               "nothing is left behind");
+    bench_listen_anew();
+    (void)bench_say("scan N0 1 10 100 whole\rrun\rstop\r");
+    bench_wait(20u);
+    tap_check(!executive_wants_tick(&bench.executive), "a stop with other lines before it halts the plant as well");
+    bench_listen_anew();
+    (void)bench_say("scan N0 0 4 2 transient 0 window 8\r");
+    tap_check(hears("- point done=1 of=2 i=0 j=0 N0=0 propensity="), "a study begins anew after one that was cut");
     (void)bench_say("set ke 5000 kt 5000 k 5000 alpha -0.15 N0 100\rstep 100000\r");
     tap_check(bench_starts(bench.last, "error in-fault") &&
                   bench_starts(bench_say("scan N0 1 2 2 transient 0 window 8\r"), "ok scan trials=2 "),
@@ -164,6 +182,7 @@ void test_study(void)
     check_scan();
     check_refusals();
     check_margin();
+    check_margin_refused();
     check_occurrence();
     check_undisturbed();
     check_stop();

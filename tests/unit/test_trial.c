@@ -63,6 +63,28 @@ static void check_ride(void)
     tap_check(trial.end == TRIAL_DECAYED && trial.sim.output.v == 0, "under a stopped disc sticking is an end");
 }
 
+/* At resonance the forced motion creeps up to the disc's speed while its transient decays: that is no promise of quiet. */
+static void check_resonance(void)
+{
+    struct params params = plants_params("kt 0.5 k 0.5 c 0.0088 alpha 0 v0 33.9");
+    const struct trial_span all = {.transient = 1600u, .window = 40u, .is_brief = true, .is_whole = true};
+
+    try_set(&params, &usual);
+    tap_check(trial.end != TRIAL_DECAYED && propensity() == PROPENSITY_SQUEAL, "touching late is squeal");
+    try_set(&params, &brief);
+    tap_check(trial_is_loud(&trial), "to a brief trial too");
+    params = plants_preset("brake", "");
+    try_set(&params, &all);
+    tap_check(trial.end == TRIAL_WAS_WHOLE && trial_is_loud(&trial) && !trial_is_undecided(&trial),
+              "one that shall run whole does");
+    params = plants_preset("brake", "t2 1");
+    try_set(&params, &usual);
+    tap_check(trial.end == TRIAL_SQUEALED && trial_periods(&trial) > 2906.0f, "a slow ramp is waited for");
+    params = plants_preset("brake", "N1 2000 rough 0 runout 0");
+    try_set(&params, &brief);
+    tap_check(trial_is_undecided(&trial) && !trial_is_loud(&trial), "on the border itself there is no proof");
+}
+
 static void check_refusal(void)
 {
     const struct params params = plants_params("spp 16 ke 0.3");
@@ -129,6 +151,7 @@ void test_trial(void)
 {
     check_ends();
     check_ride();
+    check_resonance();
     check_refusal();
     check_slices();
     check_growth("");
