@@ -91,6 +91,9 @@ static void collect_inputs(struct executive *executive)
 {
     struct input input;
 
+    if (executive->inputs_waiting.count == 0u && ring_fill(&executive->inputs) == 0u) {
+        return;
+    }
     take_due_inputs(executive);
     while (ring_pop(&executive->inputs, &input)) {
         if (input.epoch != executive->in_force.epoch) {
@@ -118,8 +121,8 @@ bool executive_tick(struct executive *executive, bool is_due)
     bool has_news = false;
 
     take_order(executive);
-    collect_inputs(executive); /* none comes meanwhile */
     if (!is_due) {
+        collect_inputs(executive);
         return false;
     }
     if (executive->to_shed != 0u) {
@@ -127,6 +130,7 @@ bool executive_tick(struct executive *executive, bool is_due)
         executive->load.shed++;
         return false;
     }
+    collect_inputs(executive); /* none comes meanwhile */
     steps = steps_due(executive);
     for (uint32_t i = 0u; i < steps; i++) {
         if (executive->inputs_waiting.count != 0u) {
