@@ -18,6 +18,7 @@ CFLAGS_ALL := -std=c99 -O2 -g -ffp-contract=off -ffile-prefix-map=$(CURDIR)=. -I
 CFLAGS_HOSTED := $(CFLAGS_ALL) -D_POSIX_C_SOURCE=200809L
 SANITIZE      := -fsanitize=address,undefined -fno-sanitize-recover=all
 
+LINK ?=
 include boards/$(BOARD)/board.mk
 CFLAGS_BOARD := $(CFLAGS_ALL) -Ihal -Iboards/$(BOARD) $(BOARD_CFLAGS)
 MAKEFILES_READ := $(MAKEFILE_LIST)
@@ -139,7 +140,7 @@ COUNT      ?= 10000
 run: $(IMAGE) $(TOOL) ## run the demonstration and the map, results in build/run (POINTS= of the map along an axis, 0: none)
 	$(Q)$(TOOL) run --board $(BOARD) --out build/run $(if $(POINTS),--points $(POINTS)) -- $(COMMAND)
 
-monitor: $(IMAGE) ## talk to the firmware in this terminal
+monitor: $(IMAGE) ## talk to the firmware in this terminal (LINK= a path: the link listens on a socket there)
 	@echo "Ctrl-C leaves. The firmware echoes; type help and Enter."
 	@saved=$$(stty -g 2>/dev/null) && trap "stty $$saved" EXIT INT TERM && stty -icanon -echo; \
 	SQUEAL_REALTIME=1 $(COMMAND)

@@ -3,7 +3,8 @@
  * alone. Time is virtual, one period a tick, as fast as the machine goes. With SQUEAL_REALTIME=1 in the environment ticks
  * and clock follow the monotonic clock instead.
  *
- * The link has no other end here: what is sent is gone, nothing comes.
+ * With SQUEAL_LINK=unix:PATH the link's other end is a socket there, for one peer at a time; without it, or while nobody
+ * is connected, what is sent is gone and nothing comes.
  */
 #include "board.h"
 
@@ -16,6 +17,7 @@
 #include "hal_board.h"
 #include "hal_tick.h"
 #include "hal_uart.h"
+#include "socket.h"
 
 enum {
     NS_PER_S = 1000000000,
@@ -77,23 +79,26 @@ static void tick_all_due(void)
     }
 }
 
-/* Waits for input, for room on a stdout that refused, or for the time to pass; without a time for as long as it takes.
- * Says whether input (or its end) is there. */
+/* Waits for input, for room on a line that refused, or for the time to pass; without a time for as long as it takes.
+ * Says whether the console has input (or its end). */
 static bool wait_for_console(bool is_endless, uint64_t wait_ns)
 {
     const struct timespec wait = {(time_t)(wait_ns / NS_PER_S), (long)(wait_ns % NS_PER_S)};
     fd_set readable;
     fd_set writable;
+    int highest;
 
     FD_ZERO(&readable);
     FD_ZERO(&writable);
+    highest = socket_watch(&readable, &writable);
+    highest = highest > STDOUT_FILENO ? highest : STDOUT_FILENO;
     if (!console.is_ended) {
         FD_SET(STDIN_FILENO, &readable);
     }
     if (console.is_refused) {
         FD_SET(STDOUT_FILENO, &writable);
     }
-    if (pselect(STDOUT_FILENO + 1, &readable, &writable, NULL, is_endless ? NULL : &wait, NULL) <= 0) {
+    if (pselect(highest + 1, &readable, &writable, NULL, is_endless ? NULL : &wait, NULL) <= 0) {
         return false;
     }
     if (FD_ISSET(STDOUT_FILENO, &writable)) {
@@ -121,6 +126,9 @@ void hal_board_init(void)
 
     timer.is_realtime = realtime != NULL && realtime[0] == '1';
     timer.has_ticked = true;
+    if (!socket_open(getenv("SQUEAL_LINK"))) {
+        hal_exit(EXIT_FAILURE); /* nobody would find the link */
+    }
 }
 
 const char *hal_board_name(void) { return BOARD_NAME; }
@@ -142,10 +150,11 @@ void hal_board_panic_write(char byte)
 /* A process has no pin; the verdict is on the console too. */
 void hal_flag_set(bool is_squealing) { (void)is_squealing; }
 
-/* Input that has ended and a main that stays idle for a while, with the tick stopped: nothing can ever happen again. */
+/* Input that has ended, on the link too, and a main that stays idle for a while, with the tick stopped: nothing can ever
+ * happen again. */
 static void idle_stopped(void)
 {
-    if (!console.is_ended || console.is_refused) {
+    if (!console.is_ended || console.is_refused || !socket_is_over()) {
         (void)wait_for_console(true, 0u);
         return;
     }
@@ -228,8 +237,11 @@ size_t hal_uart_write(enum hal_uart port, const void *data, size_t size)
 {
     ssize_t written = 0;
 
-    if (port != HAL_UART_CONSOLE || size == 0u) {
+    if (size == 0u) {
         return size;
+    }
+    if (port == HAL_UART_LINK) {
+        return socket_write(data, size);
     }
     console.quiet_rounds = 0u;
     if (is_stdout_ready()) {
@@ -259,8 +271,11 @@ size_t hal_uart_read(enum hal_uart port, void *data, size_t size)
 {
     ssize_t count;
 
-    if (port != HAL_UART_CONSOLE || size == 0u) {
+    if (size == 0u) {
         return 0u;
+    }
+    if (port == HAL_UART_LINK) {
+        return socket_read(data, size);
     }
     tick_of_a_busy_round();
     if (console.is_ended || !wait_for_console(false, 0u)) {

@@ -1,4 +1,4 @@
-/* The firmware as a POSIX process: the console is stdin and stdout. */
+/* The firmware as a POSIX process: the console is stdin and stdout, the link a socket. */
 #ifndef BOARD_H
 #define BOARD_H
 

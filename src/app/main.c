@@ -1,4 +1,4 @@
-/* The program: a plant in the interrupt, a console in main. */
+/* The program: a plant in the interrupt, console and link in main. */
 #include "app/isr.h"
 #include "app/version.h"
 #include "base/text.h"
@@ -6,47 +6,66 @@
 #include "hal_tick.h"
 #include "hal_uart.h"
 #include "protocol/console.h"
+#include "protocol/link.h"
+#include "protocol/turn.h"
 
-enum { OUTPUT_SIZE = 16384, INPUT_CHUNK = 64 };
+enum { CONSOLE_OUTPUT = 16384, LINK_OUTPUT = 4096, INPUT_CHUNK = 64 };
 
 static struct executive executive;
+static struct turn turn;
 static struct console console;
-static struct text output;
-static uint8_t output_bytes[OUTPUT_SIZE];
+static struct link link;
 
-/* Received bytes that the console would not take yet; while it has some, the UART keeps the rest. */
-static struct {
-    uint8_t bytes[INPUT_CHUNK];
+/* A line: what was received and not taken yet, while the UART keeps the rest, and what is to be sent. */
+static struct line_ends {
+    uint8_t received[INPUT_CHUNK];
     size_t size, taken;
     uint32_t lost;
-} input;
+    struct text output;
+} ends[HAL_UART_COUNT];
+
+static uint8_t console_output[CONSOLE_OUTPUT];
+static uint8_t link_output[LINK_OUTPUT];
+
+/* Fetches bytes if there are none. Returns how many the line has lost since the last time. */
+static uint32_t fetch(enum hal_uart port)
+{
+    struct line_ends *end = &ends[port];
+    const uint32_t lost = hal_uart_lost(port) - end->lost;
+
+    end->lost += lost;
+    if (end->taken == end->size) {
+        end->size = hal_uart_read(port, end->received, sizeof end->received);
+        end->taken = 0u;
+    }
+    return lost;
+}
 
 static void pump_input(void)
 {
-    const uint32_t lost = hal_uart_lost(HAL_UART_CONSOLE);
+    struct line_ends *end = &ends[HAL_UART_CONSOLE];
 
-    if (lost != input.lost) {
-        console_lost(&console, lost - input.lost);
-        input.lost = lost;
-    }
-    if (input.taken == input.size) {
-        input.size = hal_uart_read(HAL_UART_CONSOLE, input.bytes, sizeof input.bytes);
-        input.taken = 0u;
-    }
-    input.taken += console_receive(&console, input.bytes + input.taken, input.size - input.taken);
+    console_lost(&console, fetch(HAL_UART_CONSOLE));
+    end->taken += console_receive(&console, end->received + end->taken, end->size - end->taken);
+    end = &ends[HAL_UART_LINK];
+    link_lost(&link, fetch(HAL_UART_LINK));
+    end->taken += link_receive(&link, end->received + end->taken, end->size - end->taken);
 }
 
-/* Returns true when all is sent. The UART is not asked to interrupt for more: main must not sleep before. */
-static bool pump_output(void)
+/* Returns true when all is sent, and nothing waits to be taken for want of room there. The UART is not asked to interrupt
+ * for more: main must not sleep before. */
+static bool pump_output(enum hal_uart port)
 {
+    struct line_ends *end = &ends[port];
+    struct text *output = &end->output;
     size_t size;
-    const uint8_t *bytes = text_peek(&output, &size);
+    const uint8_t *bytes = text_peek(output, &size);
 
     if (size > 0u) {
-        text_drop(&output, hal_uart_write(HAL_UART_CONSOLE, bytes, size));
+        text_drop(output, hal_uart_write(port, bytes, size));
     }
-    (void)text_peek(&output, &size);
-    return size == 0u;
+    (void)text_peek(output, &size);
+    return size == 0u && end->taken == end->size;
 }
 
 static void tell_console_the_ticks(void)
@@ -57,30 +76,47 @@ static void tell_console_the_ticks(void)
     console.clock.ticks_expected = ticks.expected;
 }
 
+static bool poll(void)
+{
+    const bool console_is_busy = console_poll(&console);
+
+    return link_poll(&link) || console_is_busy;
+}
+
 int main(void)
 {
-    const struct console_identity identity = {
-        .version = version_name(),
-        .build = version_build_id(),
-        .board = hal_board_name(),
-        .core = hal_board_core(),
-        .is_emulated = hal_board_is_emulated(),
-        .baud = hal_uart_baud(HAL_UART_CONSOLE),
-    };
+    struct identity identities[HAL_UART_COUNT];
     bool is_busy;
 
+    for (unsigned port = 0u; port < HAL_UART_COUNT; port++) {
+        identities[port] = (struct identity){
+            .version = version_name(),
+            .build = version_build_id(),
+            .board = hal_board_name(),
+            .core = hal_board_core(),
+            .is_emulated = hal_board_is_emulated(),
+            .has_fpu = hal_board_has_fpu(),
+            .baud = hal_uart_baud((enum hal_uart)port),
+        };
+    }
     executive_init(&executive, hal_board_has_fpu() ? ARITH_F32 : ARITH_Q27);
     isr_init(&executive);
-    text_init(&output, output_bytes, sizeof output_bytes);
-    console_init(&console, &executive, &output, &identity);
+    text_init(&ends[HAL_UART_CONSOLE].output, console_output, sizeof console_output);
+    text_init(&ends[HAL_UART_LINK].output, link_output, sizeof link_output);
+    console_init(&console, &executive, &turn, &ends[HAL_UART_CONSOLE].output, &identities[HAL_UART_CONSOLE]);
+    link_init(&link, &executive, &turn, &ends[HAL_UART_LINK].output, &identities[HAL_UART_LINK]);
     console_banner(&console);
     for (;;) {
         pump_input();
         tell_console_the_ticks();
-        is_busy = console_poll(&console);
+        is_busy = poll();
         isr_follow();
-        is_busy = console_poll(&console) || is_busy;
-        if (pump_output() && !is_busy) {
+        if (is_busy) {
+            (void)poll(); /* what the interrupt has done by now is answered at once */
+        }
+        is_busy = !pump_output(HAL_UART_CONSOLE) || is_busy;
+        is_busy = !pump_output(HAL_UART_LINK) || is_busy;
+        if (!is_busy) {
             hal_idle();
         }
     }

@@ -47,6 +47,8 @@ bool handoff_read(const struct handoff *handoff, void *value)
     }
 }
 
+uint32_t handoff_version(const struct handoff *handoff) { return handoff->sequence; }
+
 static uint8_t *record_of(const struct publish *publish, uint32_t generation)
 {
     return publish->records + (generation & 1u) * publish->record_size;

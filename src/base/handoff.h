@@ -36,6 +36,9 @@ void handoff_write(struct handoff *handoff, const void *value);
  * copy, and one more for each write that came in between. [reader] */
 bool handoff_read(const struct handoff *handoff, void *value);
 
+/* Differs after each write: tells a reader whether there is anything new. [reader] */
+uint32_t handoff_version(const struct handoff *handoff);
+
 struct publish {
     uint8_t *records;             /* two of record_size bytes, owned by the caller */
     size_t record_size;           /* bytes */

@@ -9,12 +9,13 @@
 
 enum { ECHO_MAX = 3 };
 
-void console_init(struct console *console, struct executive *executive, struct text *text,
-                  const struct console_identity *identity)
+void console_init(struct console *console, struct executive *executive, struct turn *turn, struct text *text,
+                  const struct identity *identity)
 {
     BASE_ASSERT(text->capacity >= 2u * CONSOLE_ANSWER_MAX && text->capacity >= CONSOLE_ANSWER_MAX + STREAM_SAMPLE_MAX);
     memset(console, 0, sizeof *console);
     console->executive = executive;
+    console->turn = turn;
     console->text = text;
     console->identity = identity;
     line_init(&console->line);
@@ -23,7 +24,7 @@ void console_init(struct console *console, struct executive *executive, struct t
 
 void console_banner(struct console *console)
 {
-    const struct console_identity *identity = console->identity;
+    const struct identity *identity = console->identity;
 
     text_write(console->text, "squeal ");
     text_write(console->text, identity->version);
@@ -64,13 +65,13 @@ static void queue_line(struct console *console, enum line_state state)
     console->stops_waiting += state == LINE_DONE && is_stop(line) ? 1u : 0u;
 }
 
-/* A line goes before the next is looked at, so that echo and answers follow each other. Only while a task is under way
- * lines gather, since one of them may say stop. */
+/* A line goes before the next is looked at, so that echo and answers follow each other. Only while a task or the link is
+ * at work lines gather, since one of them may say stop. */
 static bool may_take(const struct console *console)
 {
-    const bool has_place = console->task == CONSOLE_TASK_NONE
-                               ? console->waiting_size == 0u
-                               : console->waiting_size + LINE_LENGTH_MAX + 2u <= CONSOLE_WAITING_MAX;
+    const bool is_free = console->task == CONSOLE_TASK_NONE && console->turn->holder != TURN_LINK;
+    const bool has_place =
+        is_free ? console->waiting_size == 0u : console->waiting_size + LINE_LENGTH_MAX + 2u <= CONSOLE_WAITING_MAX;
 
     return has_place && text_room(console->text) >= CONSOLE_ANSWER_MAX + ECHO_MAX;
 }
@@ -154,7 +155,7 @@ static void obey_next(struct console *console)
     if (state == LINE_DONE) {
         commands_obey(console);
     } else if (state == LINE_LAST) {
-        executive_stop(console->executive); /* nobody is left to say stop */
+        executive_halt(console->executive); /* nobody is left to say stop */
     } else {
         console_refuse(console, error, token_first(""), error_text(error));
     }
@@ -162,8 +163,7 @@ static void obey_next(struct console *console)
 
 static void write_samples(struct console *console)
 {
-    while (stream_has_sample(console->executive) &&
-           text_room(console->text) >= CONSOLE_ANSWER_MAX + STREAM_SAMPLE_MAX) {
+    while (console_has_sample(console) && text_room(console->text) >= CONSOLE_ANSWER_MAX + STREAM_SAMPLE_MAX) {
         line_make_way(&console->line, console->text);
         stream_write(&console->stream, console->executive, console->text);
     }
@@ -185,12 +185,14 @@ static void write_notice(struct console *console, const struct sample *now, cons
 /* One notice a change. That nothing is known yet after a change of the set is no news. */
 static void write_notices(struct console *console)
 {
+    const uint32_t version = handoff_version(&console->executive->handoff);
     struct executive_report report;
     const struct sample *now = &report.now;
 
-    if (executive_has_order(console->executive)) {
-        return; /* the report may be of another scale than the plan */
+    if (version == console->told.version || executive_has_order(console->executive)) {
+        return; /* nothing new, or it may be of another scale than the plan */
     }
+    console->told.version = version;
     executive_report(console->executive, &report);
     if (now->epoch != console->told.epoch) {
         console->told.epoch = now->epoch;
@@ -207,6 +209,24 @@ static void write_notices(struct console *console)
     }
 }
 
+/* A study has a plant of its own. */
+static bool needs_turn(const struct console *console)
+{
+    return console->task != CONSOLE_TASK_NONE && !study_is_under_way(console);
+}
+
+/* May the next line be obeyed? A stop makes the other side end early. */
+static bool has_turn(struct console *console)
+{
+    if (console->waiting_size > 0u && turn_take(console->turn, TURN_CONSOLE)) {
+        return true;
+    }
+    if (console->stops_waiting > 0u) {
+        turn_want(console->turn, TURN_CONSOLE);
+    }
+    return false;
+}
+
 bool console_poll(struct console *console)
 {
     bool is_busy = false;
@@ -218,10 +238,13 @@ bool console_poll(struct console *console)
     if (console->task != CONSOLE_TASK_NONE && has_room(console)) {
         is_busy = console_task_continue(console);
     }
-    while (console->task == CONSOLE_TASK_NONE && console->waiting_size > 0u && has_room(console) &&
-           !executive_has_order(console->executive)) {
+    while (console->task == CONSOLE_TASK_NONE && has_room(console) && !executive_has_order(console->executive) &&
+           has_turn(console)) {
         obey_next(console);
         is_busy = true;
+    }
+    if (!needs_turn(console)) {
+        turn_leave(console->turn, TURN_CONSOLE);
     }
     return is_busy || executive_has_order(console->executive);
 }

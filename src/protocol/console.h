@@ -18,22 +18,17 @@
 
 #include "base/text.h"
 #include "protocol/demo.h"
+#include "protocol/identity.h"
 #include "protocol/line.h"
 #include "protocol/selftest.h"
 #include "protocol/stream.h"
 #include "protocol/study.h"
+#include "protocol/turn.h"
 #include "sim/executive.h"
 
 enum {
     CONSOLE_ANSWER_MAX = 8192, /* bytes of room without which nothing is obeyed: no answer is longer */
     CONSOLE_WAITING_MAX = 512  /* bytes of lines that wait for the command before them */
-};
-
-/* Who is speaking, and over which line. */
-struct console_identity {
-    const char *version, *build, *board, *core;
-    bool is_emulated;
-    uint32_t baud;
 };
 
 /* Kept up to date by the program for the self-test: ticks that came, and those that should have by another clock. */
@@ -66,7 +61,8 @@ struct console_steps {
 struct console {
     struct executive *executive;
     struct text *text;
-    const struct console_identity *identity;
+    struct turn *turn;
+    const struct identity *identity;
     struct console_clock clock;
 
     struct line line;
@@ -87,7 +83,8 @@ struct console {
     struct study study;
     bool has_spent_stop; /* it ended a study: the stop itself is only answered */
 
-    struct { /* what the last notice said, since the last reset */
+    struct {              /* what the last notice said, since the last reset */
+        uint32_t version; /* of the report that has been looked at */
         uint8_t epoch, propensity;
         bool is_fault;
     } told;
@@ -99,8 +96,8 @@ struct console {
 
 /* Binds to what it talks about and where it writes; text must hold at least twice CONSOLE_ANSWER_MAX. All must outlive the
  * console. [INIT] */
-void console_init(struct console *console, struct executive *executive, struct text *text,
-                  const struct console_identity *identity);
+void console_init(struct console *console, struct executive *executive, struct turn *turn, struct text *text,
+                  const struct identity *identity);
 
 /* The first line after start. [MAIN] */
 void console_banner(struct console *console);

@@ -36,6 +36,9 @@ void console_begin_body(struct console *console);
 /* Starts a task: its answer comes later. */
 void console_start_task(struct console *console, enum console_task task);
 
+/* Does a sample wait that is the console's to write? */
+bool console_has_sample(const struct console *console);
+
 /* The present task has been answered. */
 void console_end_task(struct console *console);
 

@@ -133,24 +133,6 @@ static void refuse_word(struct console *console, enum error error, const struct 
     settings_refuse_value(console, error, info, bad);
 }
 
-/* Orders the set. A plant that stands at its first step has nothing to lose: there the scale follows the set, and every
- * change is a reset. */
-static struct params_problem order(struct console *console, const struct params *params)
-{
-    struct executive *executive = console->executive;
-    const bool is_running = executive_wants_tick(executive);
-    struct executive_report report;
-    struct params_problem problem;
-
-    executive_report(executive, &report);
-    if (!is_running && report.now.step == 0u && report.now.is_fault == 0u) {
-        problem = executive_reset(executive, params);
-        console->was_reset = problem.error == ERROR_OK;
-        return problem;
-    }
-    return executive_set(executive, params, !is_running, &console->was_reset);
-}
-
 void settings_set(struct console *console)
 {
     struct params params = *executive_params(console->executive);
@@ -176,7 +158,7 @@ void settings_set(struct console *console)
     if (!streaming_admits(console, &params)) {
         return;
     }
-    problem = order(console, &params);
+    problem = executive_change(console->executive, &params, true, &console->was_reset);
     if (problem.error != ERROR_OK) {
         refuse_problem(console, &problem, &params);
         return;

@@ -24,12 +24,9 @@ enum signal signals_find(const char *name, size_t length)
     return (enum signal)signal;
 }
 
-static const char *mode_name(const struct sample *sample)
+static int mode_number(const struct sample *sample)
 {
-    if (sample->is_fault != 0u) {
-        return "fault";
-    }
-    return sample->mode == PLANT_STICK ? "stick" : sample->mode == PLANT_SLIP_PLUS ? "slip+" : "slip-";
+    return sample->is_fault != 0u ? SIGNAL_MODE_FAULT : sample->mode;
 }
 
 /* Only bilateral contact, the paper's, can pull. */
@@ -67,10 +64,18 @@ static void append_REAL(struct text *text, const struct scale *scale, float valu
     }
 }
 
-static void append_WORD(struct text *text, const struct scale *scale, const char *value)
+static void append_MODE(struct text *text, const struct scale *scale, int value)
+{
+    static const char *const names[] = {"slip-", "stick", "slip+", "fault"};
+
+    (void)scale;
+    text_write(text, names[value - PLANT_SLIP_MINUS]);
+}
+
+static void append_PROPENSITY(struct text *text, const struct scale *scale, uint8_t value)
 {
     (void)scale;
-    text_write(text, value);
+    text_write(text, detector_propensity_name(value));
 }
 
 static void append_BITS(struct text *text, const struct scale *scale, uint32_t value)
@@ -91,5 +96,46 @@ void signals_append(struct text *text, enum signal signal, const struct sample *
     case SIGNAL_COUNT:
     default:
         break;
+    }
+}
+
+static uint32_t word_COUNT(const struct scale *scale, uint64_t value)
+{
+    (void)scale;
+    return fmath_bits(fmath_from_u64(value));
+}
+
+static uint32_t word_TIME(const struct scale *scale, uint64_t value)
+{
+    return fmath_bits(fmath_from_u64(value) * scale->step_s);
+}
+
+static uint32_t word_REAL(const struct scale *scale, float value)
+{
+    (void)scale;
+    return fmath_bits(value);
+}
+
+static uint32_t word_MODE(const struct scale *scale, int value) { return word_REAL(scale, (float)value); }
+
+static uint32_t word_PROPENSITY(const struct scale *scale, uint8_t value) { return word_REAL(scale, (float)value); }
+
+static uint32_t word_BITS(const struct scale *scale, uint32_t value)
+{
+    (void)scale;
+    return value;
+}
+
+uint32_t signals_word(enum signal signal, const struct sample *sample, const struct scale *scale)
+{
+    switch (signal) {
+#define SIGNAL(id, field, name, unit, width, form, value, help) \
+    case SIGNAL_##field:                                        \
+        return word_##form(scale, value);
+#include "protocol/signals.def"
+#undef SIGNAL
+    case SIGNAL_COUNT:
+    default:
+        return 0u;
     }
 }

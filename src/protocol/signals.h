@@ -26,7 +26,16 @@ enum signal {
 
 enum { SIGNALS_DEFAULT = 11 }; /* so many from the head of the table where none are named */
 
-enum signal_form { SIGNAL_FORM_COUNT, SIGNAL_FORM_TIME, SIGNAL_FORM_REAL, SIGNAL_FORM_WORD, SIGNAL_FORM_BITS };
+enum { SIGNAL_MODE_FAULT = 2 }; /* beside enum plant_mode */
+
+enum signal_form {
+    SIGNAL_FORM_COUNT,
+    SIGNAL_FORM_TIME,
+    SIGNAL_FORM_REAL,
+    SIGNAL_FORM_MODE,
+    SIGNAL_FORM_PROPENSITY,
+    SIGNAL_FORM_BITS
+};
 
 struct signal_info {
     const char *name, *unit, *help;
@@ -43,5 +52,8 @@ enum signal signals_find(const char *name, size_t length);
 /* Appends the value as text, at most width characters; nan where there is none. scale is that of the
  * sample's reset. [MAIN] */
 void signals_append(struct text *text, enum signal signal, const struct sample *sample, const struct scale *scale);
+
+/* The value as a word for a program: the bits of a float, numbers and names included; a hash as it is. [MAIN] */
+uint32_t signals_word(enum signal signal, const struct sample *sample, const struct scale *scale);
 
 #endif

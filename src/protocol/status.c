@@ -118,7 +118,7 @@ void status_write(struct text *text, const struct console *console, const struct
 
 void status_write_id(struct text *text, const struct console *console)
 {
-    const struct console_identity *identity = console->identity;
+    const struct identity *identity = console->identity;
 
     text_key_text(text, "name", "squeal");
     text_key_text(text, "version", identity->version);

@@ -60,6 +60,9 @@ bool streaming_admits(struct console *console, const struct params *params)
 void streaming_begin(struct console *console)
 {
     console->stream.setup = console->stream_wanted;
+    if (console->stream.setup.form == STREAM_OFF) {
+        turn_leave_stream(console->turn, TURN_CONSOLE);
+    }
     if (console->stream.setup.form != STREAM_OFF) {
         stream_count_anew(&console->stream, console->executive);
         executive_stream(console->executive, console->stream.setup.every);
@@ -103,6 +106,10 @@ static void start(struct console *console)
     load = load_at(console, &setup, executive_params(console->executive));
     if (is_overload(&setup, load)) {
         refuse_overload(console, &setup, load, error_text(ERROR_LINE_OVERLOAD));
+        return;
+    }
+    if (!turn_take_stream(console->turn, TURN_CONSOLE)) {
+        console_refuse(console, ERROR_BUSY, token_first("stream"), "the link streams");
         return;
     }
     setup.every = setup.every != 0u ? setup.every : load.smallest;

@@ -9,7 +9,16 @@ void console_start_task(struct console *console, enum console_task task)
     console->is_ending = false;
 }
 
-void console_end_task(struct console *console) { console->task = CONSOLE_TASK_NONE; }
+bool console_has_sample(const struct console *console)
+{
+    return console->turn->streams == TURN_CONSOLE && stream_has_sample(console->executive);
+}
+
+void console_end_task(struct console *console)
+{
+    console->task = CONSOLE_TASK_NONE;
+    turn_leave(console->turn, TURN_CONSOLE);
+}
 
 void console_begin_steps(struct console *console, uint64_t steps)
 {
@@ -52,12 +61,12 @@ enum console_progress console_go_on(struct console *console, uint32_t slice, str
         if (!console->told.is_fault || console->told.epoch != report->now.epoch) {
             return CONSOLE_ADVANCES; /* the notice comes before the answer */
         }
-        return stream_has_sample(executive) ? CONSOLE_WAITS : CONSOLE_FAULTS;
+        return console_has_sample(console) ? CONSOLE_WAITS : CONSOLE_FAULTS;
     }
     if (executive_credit(executive) != 0u || report->now.step != steps->reached) {
         return CONSOLE_WAITS;
     }
-    if (stream_has_sample(executive)) {
+    if (console_has_sample(console)) {
         return CONSOLE_WAITS;
     }
     if (steps->left == 0u) {
@@ -86,7 +95,7 @@ static bool continue_setting(struct console *console)
     struct executive_report report;
 
     /* After a reset the samples of the run before come first. */
-    if (executive_has_order(console->executive) || (console->was_reset && stream_has_sample(console->executive))) {
+    if (executive_has_order(console->executive) || (console->was_reset && console_has_sample(console))) {
         return false;
     }
     executive_report(console->executive, &report);
@@ -100,7 +109,7 @@ static bool continue_stop(struct console *console)
 {
     struct executive_report report;
 
-    if (executive_has_order(console->executive) || stream_has_sample(console->executive)) {
+    if (executive_has_order(console->executive) || console_has_sample(console)) {
         return false;
     }
     executive_report(console->executive, &report);
@@ -173,7 +182,7 @@ static bool continue_steps(struct console *console)
 /* The stream before has ended: its samples go out, then the new one begins. */
 static bool continue_stream(struct console *console)
 {
-    if (executive_has_order(console->executive) || stream_has_sample(console->executive)) {
+    if (executive_has_order(console->executive) || console_has_sample(console)) {
         return false;
     }
     streaming_begin(console);
@@ -213,7 +222,7 @@ static bool ends_early(struct console *console)
     case CONSOLE_TASK_SCAN:
     case CONSOLE_TASK_MARGIN:
     case CONSOLE_TASK_OCCURRENCE:
-        return console->stops_waiting > 0u;
+        return console->stops_waiting > 0u || console->turn->is_wanted;
     case CONSOLE_TASK_NONE:
     case CONSOLE_TASK_SETTING:
     case CONSOLE_TASK_STOP:
@@ -225,11 +234,7 @@ static bool ends_early(struct console *console)
 
 void console_halt(struct console *console)
 {
-    const struct stream_setup *setup = &console->stream.setup;
-
-    executive_stop(console->executive);
-    /* The same stream once more: the interrupt takes the order and reports where it stands. */
-    executive_stream(console->executive, setup->form == STREAM_OFF ? 0u : setup->every);
+    executive_halt(console->executive);
     console->is_ending = true;
 }
 

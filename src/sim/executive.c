@@ -37,6 +37,7 @@ static void push_sample(struct executive *executive)
 
     sim_sample(&executive->sim, &sample);
     sample.epoch = executive->in_force.epoch;
+    sample.number = (uint16_t)(executive->samples.head + executive->samples.dropped);
     (void)ring_push(&executive->samples, &sample); /* a full ring counts the drop itself */
     executive->until_sample = executive->in_force.sample_every;
 }
@@ -202,7 +203,8 @@ static void order_restart(struct executive *executive)
     executive_stop(executive);
     executive->draft.is_reset = true;
     executive->draft.is_new_plan = true;
-    executive->draft.epoch++;
+    executive->resets++;
+    executive->draft.epoch = (uint8_t)executive->resets;
     executive->scales[executive->draft.epoch & 1u] = executive->draft.plan.scale;
     give_order(executive);
 }
@@ -251,6 +253,22 @@ struct params_problem executive_set(struct executive *executive, const struct pa
         give_order(executive);
     }
     return problem;
+}
+
+struct params_problem executive_change(struct executive *executive, const struct params *params, bool may_reset,
+                                       bool *was_reset)
+{
+    const bool is_running = executive_wants_tick(executive);
+    struct executive_report report;
+    struct params_problem problem;
+
+    executive_report(executive, &report);
+    if (!is_running && report.now.step == 0u && report.now.is_fault == 0u) {
+        problem = executive_reset(executive, params);
+        *was_reset = problem.error == ERROR_OK;
+        return problem;
+    }
+    return executive_set(executive, params, may_reset && !is_running, was_reset);
 }
 
 void executive_stream(struct executive *executive, uint32_t every)
@@ -305,6 +323,12 @@ void executive_stop(struct executive *executive)
 {
     word_write(&executive->is_free, 0u);
     word_write(&executive->granted, word_read(&executive->used));
+}
+
+void executive_halt(struct executive *executive)
+{
+    executive_stop(executive);
+    give_order(executive);
 }
 
 uint32_t executive_credit(const struct executive *executive)

@@ -93,6 +93,7 @@ struct executive {
     struct scale scales[2];       /* by epoch & 1, for samples that are still on their way */
     uint32_t inputs_clamped;      /* demands held at a limit, since the start */
     uint32_t inputs_refused;      /* demands for which there was no place, since the start */
+    uint32_t resets;              /* ordered, since the start */
 };
 
 /* Starts with the defaults in the given number format (ARITH_F32 or ARITH_Q27), which is the board's; the plant stands at
@@ -108,6 +109,11 @@ bool executive_has_order(const struct executive *executive);
  * NEEDS_RESTART. On a problem nothing changes. *was_reset (may be NULL) tells which. [MAIN] */
 struct params_problem executive_set(struct executive *executive, const struct params *params, bool may_reset,
                                     bool *was_reset);
+
+/* The same for a change as a user means it: while the plant stands at step 0 nothing can be lost, and every change is a reset, so
+ * that the scale follows the set; while it runs nothing may reset it. [MAIN] */
+struct params_problem executive_change(struct executive *executive, const struct params *params, bool may_reset,
+                                       bool *was_reset);
 
 /* Orders a restart of a set from its initial state, credit gone. On a problem nothing changes. [MAIN] */
 struct params_problem executive_reset(struct executive *executive, const struct params *params);
@@ -127,6 +133,9 @@ bool executive_input(struct executive *executive, const struct input_demand *dem
 void executive_grant(struct executive *executive, uint32_t steps);
 void executive_free_run(struct executive *executive);
 void executive_stop(struct executive *executive);
+
+/* Takes the credit back by an order that changes nothing: once it is taken, the report tells where the plant stands. [MAIN] */
+void executive_halt(struct executive *executive);
 
 /* Steps of credit left; 0 in free run. [ANY] */
 uint32_t executive_credit(const struct executive *executive);

@@ -20,13 +20,19 @@ class Silence(Exception):
 class Firmware:
     """One running image. Every wait has an end; the child never outlives the test."""
 
-    def __init__(self, where="board", extra=(), limit_s=60.0):
-        # Options of the emulator go before -kernel, which is the last one.
+    def __init__(self, where="board", extra=(), limit_s=60.0, link=None):
+        """link: a path; the firmware's link listens on a socket there."""
+        # Options of the emulator go before -kernel, which is the last one; its second line is the link.
         command = COMMANDS[where]
         command = command[:1] + list(extra) + command[1:]
+        environment = dict(os.environ)
+        if link and "null" in command:
+            command[command.index("null")] = f"unix:{link},server=on,wait=off"
+        elif link:
+            environment["SQUEAL_LINK"] = f"unix:{link}"
         self.limit_s = limit_s
         self.process = subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE,
-                                        stderr=subprocess.DEVNULL, start_new_session=True)
+                                        stderr=subprocess.DEVNULL, start_new_session=True, env=environment)
         os.set_blocking(self.process.stdout.fileno(), False)
         os.set_blocking(self.process.stdin.fileno(), False)
         self.input, self.lines, self.partial = b"", [], b""
@@ -58,6 +64,12 @@ class Firmware:
 
     def send(self, data):
         self.input += data if isinstance(data, bytes) else data.encode() + b"\r"
+
+    def flush(self):
+        """Waits until all that was sent is on its way."""
+        until = time.monotonic() + self.limit_s
+        while self.input:
+            self._pump(until)
 
     def answer(self):
         """Next line that begins with ok or error; what comes before is sorted."""
@@ -94,6 +106,9 @@ class Tap:
 
     def __init__(self):
         self.count, self.failed = 0, 0
+
+    def note(self, text):
+        print(f"# {text}", flush=True)
 
     def check(self, holds, claim, *notes):
         self.count += 1

@@ -6,9 +6,22 @@
 struct bench bench;
 
 static uint8_t storage[2 * CONSOLE_ANSWER_MAX];
+static uint8_t link_storage[1024];
 
-static const struct console_identity identity = {
-    .version = "0.0.0", .build = "test", .board = "bench", .core = "none", .is_emulated = false, .baud = BENCH_BAUD};
+struct bench_frame bench_samples[BENCH_SAMPLES_MAX];
+size_t bench_sample_count;
+bool bench_link_is_read;
+
+static struct bench_frame reply_heard;
+static bool has_reply;
+
+static const struct identity identity = {.version = "0.0.0",
+                                         .build = "test",
+                                         .board = "bench",
+                                         .core = "none",
+                                         .is_emulated = false,
+                                         .has_fpu = true,
+                                         .baud = BENCH_BAUD};
 
 static char line[4096];
 static size_t line_size;
@@ -79,6 +92,66 @@ static void send(size_t room)
     }
 }
 
+static void keep(struct bench_frame *kept, const struct frame *frame)
+{
+    *kept = (struct bench_frame){
+        .type = frame->type, .sequence = frame->sequence, .step = frame->step, .size = frame->size};
+    memcpy(kept->payload, frame->payload, frame->size);
+}
+
+static void hear_link(void)
+{
+    struct frame frame;
+    size_t size;
+    const uint8_t *bytes = text_peek(&bench.link_text, &size);
+
+    for (size_t i = 0u; i < size; i++) {
+        if (!frame_take(&bench.controller, bytes[i], &frame)) {
+            continue;
+        }
+        if (frame.type != LINK_SAMPLE) {
+            keep(&reply_heard, &frame);
+            has_reply = true;
+        } else if (bench_sample_count < BENCH_SAMPLES_MAX) {
+            keep(&bench_samples[bench_sample_count++], &frame);
+        }
+    }
+    text_drop(&bench.link_text, size);
+}
+
+bool bench_link_turns(const uint8_t *bytes, size_t size, unsigned turns, struct bench_frame *reply)
+{
+    bool is_busy;
+
+    has_reply = false;
+    for (unsigned i = 0u; i < turns && !has_reply; i++) {
+        const size_t taken = link_receive(&bench.link, bytes, size);
+
+        bytes += taken;
+        size -= taken;
+        (void)bench_turn("", 0u, SIZE_MAX, &is_busy);
+    }
+    *reply = reply_heard;
+    return has_reply;
+}
+
+bool bench_ask(const struct bench_frame *request, struct bench_frame *reply, unsigned limit)
+{
+    static uint8_t wire_bytes[512];
+    struct text wire;
+    size_t size;
+    const uint8_t *bytes;
+
+    text_init(&wire, wire_bytes, sizeof wire_bytes);
+    (void)frame_write(&wire, &(struct frame){.type = request->type,
+                                             .sequence = request->sequence,
+                                             .step = request->step,
+                                             .payload = request->payload,
+                                             .size = request->size});
+    bytes = text_peek(&wire, &size);
+    return bench_link_turns(bytes, size, limit, reply);
+}
+
 void bench_listen_anew(void)
 {
     bench.heard_size = 0u;
@@ -95,6 +168,7 @@ size_t bench_turn(const char *bytes, size_t size, size_t room, bool *is_busy)
     const size_t taken = console_receive(&bench.console, (const uint8_t *)bytes, size);
 
     *is_busy = console_poll(&bench.console);
+    *is_busy = link_poll(&bench.link) || *is_busy;
     if (executive_has_order(&bench.executive)) {
         executive_tick(&bench.executive, false);
     }
@@ -102,7 +176,11 @@ size_t bench_turn(const char *bytes, size_t size, size_t room, bool *is_busy)
         executive_tick(&bench.executive, true);
     }
     *is_busy = console_poll(&bench.console) || *is_busy;
+    *is_busy = link_poll(&bench.link) || *is_busy;
     send(room);
+    if (bench_link_is_read) {
+        hear_link();
+    }
     return taken;
 }
 
@@ -138,7 +216,13 @@ void bench_open(void)
     line_size = 0u;
     executive_init(&bench.executive, ARITH_F32);
     text_init(&bench.text, storage, sizeof storage);
-    console_init(&bench.console, &bench.executive, &bench.text, &identity);
+    bench.turn = (struct turn){.holder = TURN_NOBODY};
+    console_init(&bench.console, &bench.executive, &bench.turn, &bench.text, &identity);
+    text_init(&bench.link_text, link_storage, sizeof link_storage);
+    link_init(&bench.link, &bench.executive, &bench.turn, &bench.link_text, &identity);
+    frame_open(&bench.controller);
+    bench_sample_count = 0u;
+    bench_link_is_read = true;
     (void)bench_say("echo off\r");
     bench_listen_anew();
 }

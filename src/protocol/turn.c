@@ -1,0 +1,37 @@
+#include "protocol/turn.h"
+
+bool turn_take(struct turn *turn, enum turn_side side)
+{
+    if (turn->holder == TURN_NOBODY) {
+        turn->holder = side;
+    }
+    return turn->holder == side;
+}
+
+void turn_leave(struct turn *turn, enum turn_side side)
+{
+    if (turn->holder == side) {
+        turn->holder = TURN_NOBODY;
+        turn->is_wanted = false;
+    }
+}
+
+void turn_want(struct turn *turn, enum turn_side side)
+{
+    turn->is_wanted = turn->is_wanted || (turn->holder != TURN_NOBODY && turn->holder != side);
+}
+
+bool turn_take_stream(struct turn *turn, enum turn_side side)
+{
+    if (turn->streams == TURN_NOBODY) {
+        turn->streams = side;
+    }
+    return turn->streams == side;
+}
+
+void turn_leave_stream(struct turn *turn, enum turn_side side)
+{
+    if (turn->streams == side) {
+        turn->streams = TURN_NOBODY;
+    }
+}
