@@ -5,7 +5,6 @@
 #include "model/sine.h"
 
 #define RATE_MARGIN 1e-4f    /* of the growth rate: 6e-4 a period is too close to call */
-#define TOUCH_MARGIN 0.95f   /* forced motion this near to the disc's speed is worth watching */
 #define TOUCH_SURE 1.025f    /* its mean, and its second harmonic, may keep it off the disc up to here */
 #define RESPONSE_MAX 1024.0f /* no finite response is trusted beyond it */
 #define BOUNCE_GAIN 64.0f    /* of a bouncing pad, whose contact is no sine */
@@ -145,8 +144,8 @@ static enum predictor_verdict judge(const struct prediction *prediction, const s
     if (prediction->rate > 0.0f || prediction->touch_ratio >= TOUCH_SURE) {
         return PREDICTION_SQUEAL;
     }
-    return prediction->rate > -RATE_MARGIN || prediction->touch_ratio > TOUCH_MARGIN ? PREDICTION_WATCH
-                                                                                     : PREDICTION_QUIET;
+    return prediction->rate > -RATE_MARGIN || prediction->touch_ratio > PREDICTOR_TOUCH_MARGIN ? PREDICTION_WATCH
+                                                                                               : PREDICTION_QUIET;
 }
 
 struct prediction predictor_predict(const struct params *params, const struct scale *scale)

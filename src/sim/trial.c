@@ -13,7 +13,6 @@ enum {
 };
 
 #define LN2 0.693147181f
-#define TOUCH_MARGIN 0.95f /* as the predictor's */
 #define ERROR_DEVIATIONS 3.0f
 #define WANDER_LEAST 0.02f /* of the ratio: beyond it so few frames say nothing more */
 
@@ -108,7 +107,7 @@ static bool stays_off(const struct trial *trial)
 {
     const struct prediction *prediction = &trial->plan.prediction;
 
-    return prediction->verdict == PREDICTION_UNKNOWN || prediction->touch_ratio < TOUCH_MARGIN;
+    return prediction->verdict == PREDICTION_UNKNOWN || prediction->touch_ratio < PREDICTOR_TOUCH_MARGIN;
 }
 
 /* The end that this frame promises, if it does. */
@@ -161,6 +160,9 @@ static void take_frame(struct trial *trial)
     book_growth(trial);
     if (trial->span.is_brief && !trial->span.is_whole && !trial->is_measuring) {
         end_if_growth_is_sure(trial);
+    }
+    if (trial->is_over) {
+        return;
     }
     trial->sure = promised == trial->promised ? trial->sure + 1u : 1u;
     trial->promised = promised;
@@ -269,7 +271,8 @@ bool trial_is_loud(const struct trial *trial)
     float growth;
     float error;
 
-    if (trial->end == TRIAL_GREW || trial->end == TRIAL_DECAYED) {
+    /* A brief trial that ended by its growth, without a window, knows more than the verdict of the moment. */
+    if (!trial->is_measuring && (trial->end == TRIAL_GREW || trial->end == TRIAL_DECAYED)) {
         return trial->end == TRIAL_GREW;
     }
     return trial->sim.detector.verdict.propensity == PROPENSITY_SQUEAL ||

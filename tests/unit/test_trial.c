@@ -46,6 +46,9 @@ static void check_ends(void)
     tap_check(trial.end == TRIAL_WAS_WHOLE && trial_periods(&trial) == 400.0f, "what repeats in nothing runs whole");
     try_preset("brake", "load sine N0 3000 N1 100 fN 100", &usual);
     tap_check(trial.end == TRIAL_WAS_WHOLE, "so does a sine of the load");
+    try_preset("brake", "load sine N0 3000 N1 0.001 fN 100", &usual);
+    tap_check(trial.end == TRIAL_WAS_WHOLE && propensity() == PROPENSITY_SQUEAL,
+              "also one so small that the motion repeats");
     try_preset("brake", "", &whole);
     tap_check(trial.end == TRIAL_WAS_WHOLE && trial_periods(&trial) > 440.0f + 145.0f,
               "and what was asked for whole, counted from the end of the ramp");
@@ -83,6 +86,13 @@ static void check_resonance(void)
     params = plants_preset("brake", "N1 2000 rough 0 runout 0");
     try_set(&params, &brief);
     tap_check(trial_is_undecided(&trial) && !trial_is_loud(&trial), "on the border itself there is no proof");
+    params = plants_preset("brake", "N1 1000");
+    try_set(&params, &usual);
+    tap_check(trial.end == TRIAL_DECAYED && trial.is_measuring && !trial_is_loud(&trial), "what decays is not loud");
+    trial.sim.detector.verdict.propensity = PROPENSITY_SQUEAL;
+    tap_check(trial_is_loud(&trial), "unless the window says squeal");
+    trial.is_measuring = false;
+    tap_check(!trial_is_loud(&trial), "where the growth ended it there is no window, and growth counts");
 }
 
 static void check_refusal(void)
