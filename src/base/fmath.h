@@ -18,8 +18,8 @@ float fmath_sine_turns(uint32_t turns);
 /* The same in Q30, integers only. Error below 1e-8 and half a unit. */
 int32_t fmath_sine_turns_q30(uint32_t turns);
 
-/* Base-2 logarithm of a positive finite value (of 0: that of the least number): error below 2e-7 before the result is rounded to float; a power of two
- * gives its exponent exactly. */
+/* Base-2 logarithm of a positive finite value, of 0 that of the least number: error below 2e-7 before the result is rounded
+ * to float; a power of two gives its exponent exactly. */
 float fmath_log2(float value);
 
 /* 2^value, error below 2e-7 of it; a whole number gives its power exactly. Beyond -126 ... 127 it is that of the limit. */

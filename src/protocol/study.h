@@ -33,7 +33,7 @@ struct study_tally {
 
 struct study_scan {
     struct scan scan;
-    uint32_t point; /* to be tried */
+    uint32_t point; /* to be tried, or under way */
 };
 
 struct study_margin {
@@ -43,13 +43,13 @@ struct study_margin {
     bool has_base, is_loud; /* the base was tried, and what it said */
     struct margin margin;   /* of the parameter under way */
     bool is_searching;      /* it waits for the trial of wanted */
-    struct params wanted;
-    uint32_t done, of; /* parameters */
+    uint32_t done, of;      /* parameters */
 };
 
 struct study_occurrence {
     struct occurrence occurrence;
-    uint32_t done, of; /* trials */
+    struct occurrence_draw draw; /* under way */
+    uint32_t done, of;           /* trials */
     uint32_t clamped;
 };
 
@@ -57,6 +57,7 @@ struct study {
     struct trial trial;
     struct trial_span span;
     bool is_trying;
+    struct params wanted; /* of the trial to begin or under way, of scan and margin */
     struct study_tally tally;
     struct study_scan scan;
     struct study_margin margin;

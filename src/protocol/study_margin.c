@@ -145,16 +145,17 @@ static bool try_base(struct console *console)
 }
 
 /* Begins with the next parameter; false if there is none. */
-static bool begin_next(struct study_margin *study)
+static bool begin_next(struct study *study)
 {
-    const struct params_info *before = study->done == 0u ? NULL : study->margin.info;
-    const struct params_info *info = study->only != NULL ? study->only : next_parameter(&study->base, before);
+    struct study_margin *search = &study->margin;
+    const struct params_info *before = search->done == 0u ? NULL : search->margin.info;
+    const struct params_info *info = search->only != NULL ? search->only : next_parameter(&search->base, before);
 
-    if (study->done == study->of) {
+    if (search->done == search->of) {
         return false;
     }
-    margin_begin(&study->margin, &study->base, info, study->factor, study->is_loud);
-    study->is_searching = margin_next(&study->margin, &study->wanted);
+    margin_begin(&search->margin, &search->base, info, search->factor, search->is_loud);
+    search->is_searching = margin_next(&search->margin, &study->wanted);
     return true;
 }
 
@@ -176,19 +177,19 @@ bool study_margin_continue(struct console *console)
         return try_base(console);
     }
     if (!search->is_searching) {
-        if (!begin_next(search)) {
+        if (!begin_next(study)) {
             answer(console);
         } else if (!search->is_searching) {
             end_parameter(console);
         }
         return true;
     }
-    if (!study_try(study, &search->wanted, &problem)) {
+    if (!study_try(study, &study->wanted, &problem)) {
         return true;
     }
     answered = problem.error != ERROR_OK ? MARGIN_REFUSED : trial_is_loud(&study->trial) ? MARGIN_LOUD : MARGIN_QUIET;
     margin_take(&search->margin, answered);
-    if (!margin_next(&search->margin, &search->wanted)) {
+    if (!margin_next(&search->margin, &study->wanted)) {
         end_parameter(console);
     }
     return true;

@@ -66,9 +66,9 @@ void study_occurrence_obey(struct console *console)
     study_start(console, CONSOLE_TASK_OCCURRENCE);
 }
 
-static void write_draw(struct console *console, const struct occurrence_draw *draw,
-                       const struct params_problem *problem)
+static void write_draw(struct console *console, const struct params_problem *problem)
 {
+    const struct occurrence_draw *draw = &console->study.occurrence.draw;
     struct text *text = console->text;
 
     console_begin_body(console);
@@ -111,15 +111,16 @@ bool study_occurrence_continue(struct console *console)
 {
     struct study_occurrence *study = &console->study.occurrence;
     struct params_problem problem;
-    struct occurrence_draw draw;
 
-    occurrence_draw(&study->occurrence, study->done, &draw);
-    if (!study_try(&console->study, &draw.params, &problem)) {
+    if (!console->study.is_trying) {
+        occurrence_draw(&study->occurrence, study->done, &study->draw);
+    }
+    if (!study_try(&console->study, &study->draw.params, &problem)) {
         return true;
     }
     study->done++;
-    study->clamped += draw.clamped;
-    write_draw(console, &draw, &problem);
+    study->clamped += study->draw.clamped;
+    write_draw(console, &problem);
     if (study->done == study->of) {
         answer(console);
     }

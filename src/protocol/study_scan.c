@@ -62,7 +62,7 @@ void study_scan_obey(struct console *console)
     study_start(console, CONSOLE_TASK_SCAN);
 }
 
-static void write_point(struct console *console, const struct params_problem *problem, const struct params *params)
+static void write_point(struct console *console, const struct params_problem *problem)
 {
     const struct study *study = &console->study;
     const struct scan *scan = &study->scan.scan;
@@ -77,7 +77,7 @@ static void write_point(struct console *console, const struct params_problem *pr
     text_key_u64(text, "j", scan_place(scan, point, 1u));
     for (uint32_t i = 0u; i < scan->axis_count; i++) {
         text_key_text(text, scan->axes[i].info->symbol, "");
-        values_write(text, scan->axes[i].info, params_value(params, scan->axes[i].info));
+        values_write(text, scan->axes[i].info, params_value(&study->wanted, scan->axes[i].info));
     }
     study_write_outcome(text, &study->trial, problem);
     console_end(console);
@@ -85,19 +85,21 @@ static void write_point(struct console *console, const struct params_problem *pr
 
 bool study_scan_continue(struct console *console)
 {
-    struct study_scan *scan = &console->study.scan;
+    struct study *study = &console->study;
+    struct study_scan *scan = &study->scan;
     struct params_problem problem;
-    struct params params;
 
-    scan_params(&scan->scan, scan->point, &params);
-    if (!study_try(&console->study, &params, &problem)) {
+    if (!study->is_trying) {
+        scan_params(&scan->scan, scan->point, &study->wanted);
+    }
+    if (!study_try(study, &study->wanted, &problem)) {
         return true;
     }
-    write_point(console, &problem, &params);
+    write_point(console, &problem);
     scan->point++;
     if (scan->point == scan_points(&scan->scan)) {
         console_begin_ok(console);
-        study_write_tally(console->text, &console->study.tally);
+        study_write_tally(console->text, &study->tally);
         console_end(console);
         console_end_task(console);
     }

@@ -8,8 +8,8 @@
  * two frames in a row, and the closed form says that it must and that the motion left stays off the disc. A sine of
  * the load is never at rest.
  *
- * Who asks for a border or a share only wants to know on which side a set lies: with is_brief a trial is over, without a window, as
- * soon as the growth of the free motion is known beyond its error. */
+ * Who asks for a border or a share only wants to know on which side a set lies: with is_brief a trial is over,
+ * without a window, as soon as the growth of the free motion is known beyond its error. */
 #ifndef SIM_TRIAL_H
 #define SIM_TRIAL_H
 

@@ -5,12 +5,17 @@ import select
 import shlex
 import signal
 import subprocess
+import sys
 import time
 
 # By board, as make command prints them; "board" is the one under test.
 COMMANDS = {name: shlex.split(command)
             for name, command in (line.split(": ", 1) for line in os.environ["COMMANDS"].splitlines())}
 COMMANDS["board"] = COMMANDS[os.environ["BOARD"]]
+
+
+# A test that is told to end does so by its with blocks, which end the firmware.
+signal.signal(signal.SIGTERM, lambda *unused: sys.exit(1))
 
 
 class Silence(Exception):
