@@ -22,26 +22,11 @@
 #include "base/text.h"
 #include "protocol/frame.h"
 #include "protocol/identity.h"
+#include "protocol/messages.h"
 #include "protocol/turn.h"
 #include "sim/executive.h"
 
-enum {
-    LINK_MAJOR = 1,
-    LINK_MINOR = 0,
-    LINK_REPLY = 0x80, /* added to the request's type */
-    LINK_ERROR = 0xff,
-    LINK_SAMPLE = 0x40,
-    LINK_ERROR_SIZE = 15, /* bytes of its payload */
-    LINK_NO_INDEX = 255,
-    LINK_STEP_REPLY = 45,
-    LINK_REQUEST_MAX = 18 /* bytes of the longest request's payload */
-};
-
-enum link_message {
-#define MESSAGE(type, field, name, request, reply, help) LINK_##field = type,
-#include "protocol/messages.def"
-#undef MESSAGE
-};
+enum { LINK_REQUEST_MAX = 18 /* bytes of the longest request's payload */ };
 
 /* The request being answered. */
 struct link_request {

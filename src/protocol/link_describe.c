@@ -5,17 +5,6 @@
 #include "protocol/link_parts.h"
 #include "protocol/signals.h"
 
-enum { TABLE_PARAMS, TABLE_SIGNALS, TABLE_PRESETS, TABLE_COUNT };
-
-enum { READ_IN_FORCE, READ_STAGED, READ_SIGNAL, READ_COUNT };
-
-enum { KIND_REAL, KIND_WHOLE, KIND_CHOICE, KIND_BITS };
-enum { CHANGE_LIVE, CHANGE_RESTART, CHANGE_NEVER };
-
-enum { SYMBOL_WIDTH = 24, UNIT_WIDTH = 48, HELP_WIDTH = 149 };
-
-enum { FLAG_EMULATED = 1, FLAG_FPU = 2 };
-
 enum link_progress link_hello(struct link *link)
 {
     const struct identity *identity = link->identity;
@@ -33,12 +22,13 @@ enum link_progress link_hello(struct link *link)
     bytes_put_u8(reply, (uint8_t)params_count);
     bytes_put_u8(reply, SIGNAL_COUNT);
     bytes_put_u8(reply, (uint8_t)presets_count);
-    bytes_put_u8(reply, (uint8_t)((identity->is_emulated ? FLAG_EMULATED : 0) | (identity->has_fpu ? FLAG_FPU : 0)));
+    bytes_put_u8(reply,
+                 (uint8_t)((identity->is_emulated ? LINK_IS_EMULATED : 0) | (identity->has_fpu ? LINK_HAS_FPU : 0)));
     bytes_put_u16(reply, FRAME_PAYLOAD_MAX);
-    bytes_put_text(reply, identity->version, 16u);
-    bytes_put_text(reply, identity->build, 32u);
-    bytes_put_text(reply, identity->board, 24u);
-    bytes_put_text(reply, identity->core, 16u);
+    bytes_put_text(reply, identity->version, LINK_VERSION_WIDTH);
+    bytes_put_text(reply, identity->build, LINK_BUILD_WIDTH);
+    bytes_put_text(reply, identity->board, LINK_BOARD_WIDTH);
+    bytes_put_text(reply, identity->core, LINK_CORE_WIDTH);
     return link_answer(link);
 }
 
@@ -60,10 +50,10 @@ static struct row param_row(const struct params_info *info)
     const bool is_choice = params_is_choice(info);
 
     return (struct row){.id = info->id,
-                        .kind = is_choice               ? KIND_CHOICE
-                                : params_is_whole(info) ? KIND_WHOLE
-                                                        : KIND_REAL,
-                        .change = info->change == PARAMS_LIVE ? CHANGE_LIVE : CHANGE_RESTART,
+                        .kind = is_choice               ? LINK_CHOICE
+                                : params_is_whole(info) ? LINK_WHOLE
+                                                        : LINK_REAL,
+                        .change = info->change == PARAMS_LIVE ? LINK_LIVE : LINK_RESTART,
                         .standard = info->standard,
                         .low = info->low,
                         .high = info->high,
@@ -78,33 +68,33 @@ static uint8_t signal_kind(enum signal_form form)
     case SIGNAL_FORM_COUNT:
     case SIGNAL_FORM_MODE:
     case SIGNAL_FORM_PROPENSITY:
-        return KIND_WHOLE;
+        return LINK_WHOLE;
     case SIGNAL_FORM_BITS:
-        return KIND_BITS;
+        return LINK_BITS;
     case SIGNAL_FORM_TIME:
     case SIGNAL_FORM_REAL:
     default:
-        return KIND_REAL;
+        return LINK_REAL;
     }
 }
 
 static struct row row_of(unsigned table, unsigned index)
 {
-    if (table == TABLE_PARAMS) {
+    if (table == LINK_PARAMS) {
         return param_row(&params_table[index]);
     }
-    if (table == TABLE_SIGNALS) {
+    if (table == LINK_SIGNALS) {
         const struct signal_info *info = &signals_table[index];
 
         return (struct row){.id = index,
                             .kind = signal_kind(info->form),
-                            .change = CHANGE_NEVER,
+                            .change = LINK_READ_ONLY,
                             .symbol = info->name,
                             .unit = info->unit,
                             .help = info->help};
     }
     return (struct row){.id = index,
-                        .change = CHANGE_NEVER,
+                        .change = LINK_READ_ONLY,
                         .symbol = presets_table[index].name,
                         .unit = "",
                         .help = presets_table[index].help};
@@ -112,13 +102,13 @@ static struct row row_of(unsigned table, unsigned index)
 
 enum link_progress link_dictionary(struct link *link)
 {
-    const size_t counts[TABLE_COUNT] = {params_count, SIGNAL_COUNT, presets_count};
+    const size_t counts[LINK_TABLE_COUNT] = {params_count, SIGNAL_COUNT, presets_count};
     const uint8_t table = bytes_get_u8(&link->arguments);
     const uint8_t index = bytes_get_u8(&link->arguments);
     struct row row;
 
-    if (table >= TABLE_COUNT) {
-        return link_refuse_field(link, 0u, 0.0f, (float)(TABLE_COUNT - 1));
+    if (table >= LINK_TABLE_COUNT) {
+        return link_refuse_field(link, 0u, 0.0f, (float)(LINK_TABLE_COUNT - 1));
     }
     if (index >= counts[table]) {
         return link_refuse_field(link, 1u, 0.0f, (float)(counts[table] - 1u));
@@ -133,9 +123,9 @@ enum link_progress link_dictionary(struct link *link)
     bytes_put_f32(&link->reply, row.standard);
     bytes_put_f32(&link->reply, row.low);
     bytes_put_f32(&link->reply, row.high);
-    bytes_put_text(&link->reply, row.symbol, SYMBOL_WIDTH);
-    bytes_put_text(&link->reply, row.unit, UNIT_WIDTH);
-    bytes_put_text(&link->reply, row.help, HELP_WIDTH);
+    bytes_put_text(&link->reply, row.symbol, LINK_SYMBOL_WIDTH);
+    bytes_put_text(&link->reply, row.unit, LINK_UNIT_WIDTH);
+    bytes_put_text(&link->reply, row.help, LINK_HELP_WIDTH);
     return link_answer(link);
 }
 
@@ -151,21 +141,21 @@ enum link_progress link_read(struct link *link)
 {
     const uint8_t table = bytes_get_u8(&link->arguments);
     const uint8_t index = bytes_get_u8(&link->arguments);
-    const size_t count = table == READ_SIGNAL ? SIGNAL_COUNT : params_count;
+    const size_t count = table == LINK_NOW ? SIGNAL_COUNT : params_count;
 
-    if (table >= READ_COUNT) {
-        return link_refuse_field(link, 0u, 0.0f, (float)(READ_COUNT - 1));
+    if (table >= LINK_PLACE_COUNT) {
+        return link_refuse_field(link, 0u, 0.0f, (float)(LINK_PLACE_COUNT - 1));
     }
     if (index >= count) {
         return link_refuse_field(link, 1u, 0.0f, (float)(count - 1u));
     }
     bytes_put_u8(&link->reply, table);
     bytes_put_u8(&link->reply, index);
-    if (table == READ_SIGNAL) {
+    if (table == LINK_NOW) {
         bytes_put_u32(&link->reply, signal_now(link, (enum signal)index));
     } else {
         bytes_put_f32(&link->reply,
-                      params_value(table == READ_STAGED ? link_staged(link) : executive_params(link->executive),
+                      params_value(table == LINK_STAGED ? link_staged(link) : executive_params(link->executive),
                                    &params_table[index]));
     }
     return link_answer(link);

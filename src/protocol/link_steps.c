@@ -10,8 +10,6 @@ enum { FIELD_COUNT, FIELD_STEP_DEMAND }; /* of STEP */
 enum { FIELD_AT, FIELD_INPUT_DEMAND };   /* of INPUT; a demand has the four that follow */
 enum { DEMAND_LOAD_KIND, DEMAND_SPEED_KIND, DEMAND_LOAD, DEMAND_SPEED };
 
-enum { FLAG_FAULT = 1, FLAG_CLAMPED = 2, FLAG_CUT = 4 };
-
 static enum link_progress answer_where(struct link *link)
 {
     struct executive_report report;
@@ -153,8 +151,8 @@ static enum link_progress answer_step(struct link *link, const struct executive_
     bytes_put_u8(&link->reply, now->propensity);
     bytes_put_u8(&link->reply, report->verdict.motion);
     bytes_put_u8(&link->reply, report->verdict.period);
-    bytes_put_u8(&link->reply, (uint8_t)((is_fault ? FLAG_FAULT : 0) | (steps->was_clamped ? FLAG_CLAMPED : 0) |
-                                         (is_cut ? FLAG_CUT : 0)));
+    bytes_put_u8(&link->reply, (uint8_t)((is_fault ? LINK_IS_FAULT : 0) | (steps->was_clamped ? LINK_WAS_CLAMPED : 0) |
+                                         (is_cut ? LINK_WAS_CUT : 0)));
     steps->has_last = true;
     steps->resets = link->executive->resets;
     steps->last = link->request;

@@ -7,7 +7,7 @@
 #include "tap.h"
 #include "tests.h"
 
-enum { FLAG_FAULT = 1, FLAG_CLAMPED = 2, FLAG_CUT = 4, REPLY_FLAGS = 44 };
+enum { REPLY_FLAGS = 44 };
 
 static void say_step(uint16_t sequence, uint32_t step, uint32_t count)
 {
@@ -130,7 +130,7 @@ static void check_fields(void)
     tap_check(is_refused(ERROR_BAD_NUMBER, 4u, 0u), "a speed that is no number");
     tap_check(bench.executive.sim.step == 0u && ring_fill(&bench.executive.inputs) == 0u, "nothing of it happens");
     say_demand(1u, 0u, INPUT_LOAD_FORCE, 1e9f, INPUT_SPEED_KEEP, fmath_from_bits(0x7fc00000u));
-    tap_check(stepped_to(1u) && reply.payload[REPLY_FLAGS] == FLAG_CLAMPED,
+    tap_check(stepped_to(1u) && reply.payload[REPLY_FLAGS] == LINK_WAS_CLAMPED,
               "a limit is told; what is not used is not looked at");
     say_input(5u, INPUT_LOAD_KEEP, 1.0f);
     tap_check(is_refused(ERROR_USAGE, LINK_NO_INDEX, 0u), "an input that asks for nothing");
@@ -218,7 +218,8 @@ static void check_states(void)
               "running twice and stopping twice is fine");
     (void)load_preset("fig7-ke5000", 11u);
     say_step(1u, 0u, 1000000u);
-    tap_check(is_answered() && (reply.payload[REPLY_FLAGS] & FLAG_FAULT) != 0u && bench.executive.sim.step < 1000000u,
+    tap_check(is_answered() && (reply.payload[REPLY_FLAGS] & LINK_IS_FAULT) != 0u &&
+                  bench.executive.sim.step < 1000000u,
               "a plant that leaves its domain ends a STEP");
     say_step(2u, reply.step, 1u);
     tap_check(is_refused(ERROR_IN_FAULT, LINK_NO_INDEX, 0u), "and takes no other");
@@ -268,7 +269,7 @@ static void check_link_at_work(void)
     bench_wait(20u);
     tap_check(bench.oks == 2u && bench_starts(bench.last, "ok stop step="),
               "but not its stop: then its lines are answered");
-    tap_check(is_answered() && reply.payload[REPLY_FLAGS] == FLAG_CUT &&
+    tap_check(is_answered() && reply.payload[REPLY_FLAGS] == LINK_WAS_CUT &&
                   reply.step == (uint32_t)bench.executive.sim.step && reply.step < 1000u,
               "for the STEP it was cut short, and says so if it is asked again");
 }
