@@ -8,11 +8,13 @@
 #include "protocol/console.h"
 #include "protocol/link.h"
 #include "protocol/turn.h"
+#include "protocol/work.h"
 
 enum { CONSOLE_OUTPUT = 16384, LINK_OUTPUT = 4096, INPUT_CHUNK = 64 };
 
 static struct executive executive;
 static struct turn turn;
+static struct work work;
 static struct console console;
 static struct link link;
 
@@ -68,12 +70,12 @@ static bool pump_output(enum hal_uart port)
     return size == 0u && end->taken == end->size;
 }
 
-static void tell_console_the_ticks(void)
+static void tell_the_ticks(void)
 {
     const struct isr_ticks ticks = isr_ticks();
 
-    console.clock.ticks_counted = ticks.counted;
-    console.clock.ticks_expected = ticks.expected;
+    work.ticks_counted = ticks.counted;
+    work.ticks_expected = ticks.expected;
 }
 
 static bool poll(void)
@@ -103,12 +105,12 @@ int main(void)
     isr_init(&executive);
     text_init(&ends[HAL_UART_CONSOLE].output, console_output, sizeof console_output);
     text_init(&ends[HAL_UART_LINK].output, link_output, sizeof link_output);
-    console_init(&console, &executive, &turn, &ends[HAL_UART_CONSOLE].output, &identities[HAL_UART_CONSOLE]);
-    link_init(&link, &executive, &turn, &ends[HAL_UART_LINK].output, &identities[HAL_UART_LINK]);
+    console_init(&console, &executive, &turn, &work, &ends[HAL_UART_CONSOLE].output, &identities[HAL_UART_CONSOLE]);
+    link_init(&link, &executive, &turn, &work, &ends[HAL_UART_LINK].output, &identities[HAL_UART_LINK]);
     console_banner(&console);
     for (;;) {
         pump_input();
-        tell_console_the_ticks();
+        tell_the_ticks();
         is_busy = poll();
         isr_follow();
         if (is_busy) {

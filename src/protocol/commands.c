@@ -6,6 +6,7 @@
 #include "protocol/console_parts.h"
 #include "protocol/report.h"
 #include "protocol/status.h"
+#include "protocol/studying.h"
 
 static const struct command {
     uint8_t id;
@@ -270,13 +271,13 @@ static void command_verdict(struct console *console)
 }
 
 static void command_input(struct console *console) { steering_obey(console); }
-static void command_scan(struct console *console) { study_scan_obey(console); }
-static void command_margin(struct console *console) { study_margin_obey(console); }
-static void command_occurrence(struct console *console) { study_occurrence_obey(console); }
+static void command_scan(struct console *console) { studying_scan(console); }
+static void command_margin(struct console *console) { studying_margin(console); }
+static void command_occurrence(struct console *console) { studying_occurrence(console); }
 
 static void command_selftest(struct console *console)
 {
-    selftest_start(&console->selftest);
+    selftest_start(&console->work->selftest);
     console_start_task(console, CONSOLE_TASK_SELFTEST);
 }
 

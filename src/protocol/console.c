@@ -9,13 +9,14 @@
 
 enum { ECHO_MAX = 3 };
 
-void console_init(struct console *console, struct executive *executive, struct turn *turn, struct text *text,
-                  const struct identity *identity)
+void console_init(struct console *console, struct executive *executive, struct turn *turn, struct work *work,
+                  struct text *text, const struct identity *identity)
 {
     BASE_ASSERT(text->capacity >= 2u * CONSOLE_ANSWER_MAX && text->capacity >= CONSOLE_ANSWER_MAX + STREAM_SAMPLE_MAX);
     memset(console, 0, sizeof *console);
     console->executive = executive;
     console->turn = turn;
+    console->work = work;
     console->text = text;
     console->identity = identity;
     line_init(&console->line);
@@ -212,7 +213,7 @@ static void write_notices(struct console *console)
 /* A study has a plant of its own. */
 static bool needs_turn(const struct console *console)
 {
-    return console->task != CONSOLE_TASK_NONE && !study_is_under_way(console);
+    return console->task != CONSOLE_TASK_NONE && console->task != CONSOLE_TASK_STUDY;
 }
 
 /* May the next line be obeyed? A stop makes the other side end early. */

@@ -20,20 +20,14 @@
 #include "protocol/demo.h"
 #include "protocol/identity.h"
 #include "protocol/line.h"
-#include "protocol/selftest.h"
 #include "protocol/stream.h"
-#include "protocol/study.h"
 #include "protocol/turn.h"
+#include "protocol/work.h"
 #include "sim/executive.h"
 
 enum {
     CONSOLE_ANSWER_MAX = 8192, /* bytes of room without which nothing is obeyed: no answer is longer */
     CONSOLE_WAITING_MAX = 512  /* bytes of lines that wait for the command before them */
-};
-
-/* Kept up to date by the program for the self-test: ticks that came, and those that should have by another clock. */
-struct console_clock {
-    uint32_t ticks_counted, ticks_expected;
 };
 
 /* What is under way and not yet answered. */
@@ -46,9 +40,7 @@ enum console_task {
     CONSOLE_TASK_STREAM,
     CONSOLE_TASK_DEMO,
     CONSOLE_TASK_SELFTEST,
-    CONSOLE_TASK_SCAN,
-    CONSOLE_TASK_MARGIN,
-    CONSOLE_TASK_OCCURRENCE
+    CONSOLE_TASK_STUDY
 };
 
 /* Steps under way for a task. */
@@ -62,8 +54,8 @@ struct console {
     struct executive *executive;
     struct text *text;
     struct turn *turn;
+    struct work *work;
     const struct identity *identity;
-    struct console_clock clock;
 
     struct line line;
     char waiting[CONSOLE_WAITING_MAX]; /* lines, each a state (enum line_state), its text and a 0 */
@@ -79,8 +71,6 @@ struct console {
     struct stream stream;
     struct stream_setup stream_wanted;
     struct demo demo;
-    struct selftest selftest;
-    struct study study;
     bool has_spent_stop; /* it ended a study: the stop itself is only answered */
 
     struct {              /* what the last notice said, since the last reset */
@@ -96,8 +86,8 @@ struct console {
 
 /* Binds to what it talks about and where it writes; text must hold at least twice CONSOLE_ANSWER_MAX. All must outlive the
  * console. [INIT] */
-void console_init(struct console *console, struct executive *executive, struct turn *turn, struct text *text,
-                  const struct identity *identity);
+void console_init(struct console *console, struct executive *executive, struct turn *turn, struct work *work,
+                  struct text *text, const struct identity *identity);
 
 /* The first line after start. [MAIN] */
 void console_banner(struct console *console);

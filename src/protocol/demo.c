@@ -129,7 +129,7 @@ static void tell_squeal(struct text *text, const struct report_verdict *judged)
 {
     if (!judged->is_audible) {
         text_write(text, "The pad vibrates by itself, though nobody can hear it: ");
-    } else if (token_equal("groan", 5u, judged->band)) {
+    } else if (judged->band == REPORT_GROAN) {
         text_write(text, "The brake groans: ");
     } else {
         text_write(text, "The brake squeals: ");

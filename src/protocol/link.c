@@ -30,13 +30,14 @@ static const struct message *find_message(uint8_t type)
     return NULL;
 }
 
-void link_init(struct link *link, struct executive *executive, struct turn *turn, struct text *text,
+void link_init(struct link *link, struct executive *executive, struct turn *turn, struct work *work, struct text *text,
                const struct identity *identity)
 {
     BASE_ASSERT(text->capacity >= 2u * FRAME_WIRE_MAX);
     memset(link, 0, sizeof *link);
     link->executive = executive;
     link->turn = turn;
+    link->work = work;
     link->text = text;
     link->identity = identity;
     frame_open(&link->receiver);
@@ -183,8 +184,9 @@ static enum link_progress go_on(struct link *link)
 
 bool link_poll(struct link *link)
 {
-    bool is_busy = link_write_samples(link);
+    bool is_busy = link_continue_study(link);
 
+    is_busy = link_write_samples(link) || is_busy;
     if (link->has_request && !executive_has_order(link->executive)) {
         is_busy = go_on(link) != LINK_WAITS || is_busy;
     }

@@ -7,7 +7,7 @@
  *     let the interrupt take an order, send text_peek(), sleep if nothing is left to send and the link is not busy
  *
  *   bytes -> frame -> request -> reply, or an order or steps and later the reply -> bytes
- *                                samples ---------------------------------------->
+ *                                samples, results of a study -------------------->
  *
  * One request at a time; the next is not looked at before this one is answered. Nothing here waits. The specification is
  * PROTOCOL.md. */
@@ -24,9 +24,10 @@
 #include "protocol/identity.h"
 #include "protocol/messages.h"
 #include "protocol/turn.h"
+#include "protocol/work.h"
 #include "sim/executive.h"
 
-enum { LINK_REQUEST_MAX = 18 /* bytes of the longest request's payload */ };
+enum { LINK_REQUEST_MAX = 30 /* bytes of the longest request's payload */ };
 
 /* The request being answered. */
 struct link_request {
@@ -63,6 +64,7 @@ struct link_stream {
 struct link {
     struct executive *executive;
     struct turn *turn;
+    struct work *work;
     struct text *text;
     const struct identity *identity;
     struct frame_receiver receiver;
@@ -78,12 +80,13 @@ struct link {
     bool was_reset;                 /* by the COMMIT under way */
     struct link_steps steps;
     struct link_stream stream;
+    uint16_t study; /* sequence of the request that has begun the study */
 
     uint32_t refused; /* requests answered with ERROR */
 };
 
 /* Binds to what it talks about and where it writes; text must hold at least two frames. All must outlive the link. [INIT] */
-void link_init(struct link *link, struct executive *executive, struct turn *turn, struct text *text,
+void link_init(struct link *link, struct executive *executive, struct turn *turn, struct work *work, struct text *text,
                const struct identity *identity);
 
 /* Takes received bytes up to the end of a request, as long as its reply has room; returns how many. [MAIN] */

@@ -13,6 +13,9 @@ enum link_progress link_hello(struct link *link)
     if (bytes_get_u8(&link->arguments) != LINK_MAJOR) {
         return link_refuse(link, &(struct link_refusal){.error = ERROR_WRONG_VERSION, .expected = LINK_MAJOR});
     }
+    if (!link_end_study(link)) {
+        return LINK_WAITS;
+    }
     link->steps.has_last = false;
     bytes_put_u8(reply, LINK_MAJOR);
     bytes_put_u8(reply, LINK_MINOR);
@@ -95,14 +98,14 @@ static struct row row_of(unsigned table, unsigned index)
     }
     return (struct row){.id = index,
                         .change = LINK_READ_ONLY,
-                        .symbol = presets_table[index].name,
+                        .symbol = table == LINK_PRESETS ? presets_table[index].name : selftest_table[index].name,
                         .unit = "",
-                        .help = presets_table[index].help};
+                        .help = table == LINK_PRESETS ? presets_table[index].help : selftest_table[index].help};
 }
 
 enum link_progress link_dictionary(struct link *link)
 {
-    const size_t counts[LINK_TABLE_COUNT] = {params_count, SIGNAL_COUNT, presets_count};
+    const size_t counts[LINK_TABLE_COUNT] = {params_count, SIGNAL_COUNT, presets_count, SELFTEST_COUNT};
     const uint8_t table = bytes_get_u8(&link->arguments);
     const uint8_t index = bytes_get_u8(&link->arguments);
     struct row row;

@@ -37,12 +37,24 @@ enum link_progress link_refuse_problem(struct link *link, const struct params_pr
 
 enum link_progress link_refuse_plain(struct link *link, enum error error);
 
+/* Is there room for a frame that comes by itself, and a reply after it? */
+bool link_has_room(const struct link *link);
+
 /* Samples of the link's stream: is one waiting, those written or lost since it began. */
 bool link_has_sample(const struct link *link);
 uint32_t link_dropped(const struct link *link);
 
 /* Writes samples as far as they leave room for a reply. Returns true if there was one, written or not. */
 bool link_write_samples(struct link *link);
+
+/* Goes on with the link's study, and sends what it has to tell. Returns true if there is one that can go on. */
+bool link_continue_study(struct link *link);
+
+/* Ends the link's study, if it has one; false as long as there is no room to say so. */
+bool link_end_study(struct link *link);
+
+/* A number in SI; what is none is always the same NaN. */
+void link_put_value(struct bytes_writer *writer, float value);
 
 /* The set that COMMIT would put into force, which follows the set in force whenever that changes. */
 struct params *link_staged(struct link *link);

@@ -39,6 +39,9 @@ enum link_progress link_stop(struct link *link)
     if (link->phase != 0u) {
         return link_has_sample(link) ? LINK_WAITS : answer_where(link);
     }
+    if (link->turn->studies == TURN_LINK) {
+        return link_end_study(link) ? answer_where(link) : LINK_WAITS;
+    }
     turn_want(link->turn, TURN_LINK);
     executive_halt(link->executive);
     link->phase = 1u;

@@ -5,6 +5,8 @@
 
 enum { BITS_PER_BYTE = 10 /* 8N1 on the wire */, WORD_SIZE = 4, FRAME_STUFFING = 2 /* code and delimiter */ };
 
+bool link_has_room(const struct link *link) { return text_room(link->text) >= 2u * FRAME_WIRE_MAX; }
+
 bool link_has_sample(const struct link *link)
 {
     return link->turn->streams == TURN_LINK && stream_has_sample(link->executive);
@@ -51,7 +53,7 @@ bool link_write_samples(struct link *link)
     const bool has_any = link_has_sample(link);
     struct sample sample;
 
-    while (link_has_sample(link) && text_room(link->text) >= 2u * FRAME_WIRE_MAX) {
+    while (link_has_sample(link) && link_has_room(link)) {
         const struct scale *scale;
 
         (void)ring_pop(&link->executive->samples, &sample);

@@ -4,12 +4,15 @@
 
 enum {
     LINK_MAJOR = 1,
-    LINK_MINOR = 0,
+    LINK_MINOR = 1,
     LINK_REPLY = 0x80, /* added to the request's type */
     LINK_ERROR = 0xff,
-    LINK_SAMPLE = 0x40,
+    LINK_SAMPLE = 0x40, /* by itself, like the next three */
+    LINK_POINT = 0x41,
+    LINK_BORDER = 0x42,
+    LINK_STUDY_END = 0x43,
     LINK_ERROR_SIZE = 15, /* bytes of its payload */
-    LINK_NO_INDEX = 255,
+    LINK_NO_INDEX = 255,  /* nothing to blame; no second axis of SCAN; all parameters of MARGIN */
     LINK_STEP_REPLY = 45
 };
 
@@ -24,7 +27,7 @@ enum { LINK_IS_EMULATED = 1, LINK_HAS_FPU = 2 };
 enum { LINK_VERSION_WIDTH = 16, LINK_BUILD_WIDTH = 32, LINK_BOARD_WIDTH = 24, LINK_CORE_WIDTH = 16 };
 
 /* DICTIONARY's tables, and what it says of a row. */
-enum link_table { LINK_PARAMS, LINK_SIGNALS, LINK_PRESETS, LINK_TABLE_COUNT };
+enum link_table { LINK_PARAMS, LINK_SIGNALS, LINK_PRESETS, LINK_SELFTESTS, LINK_TABLE_COUNT };
 enum link_kind { LINK_REAL, LINK_WHOLE, LINK_CHOICE, LINK_BITS };
 enum link_change { LINK_LIVE, LINK_RESTART, LINK_READ_ONLY };
 enum { LINK_SYMBOL_WIDTH = 24, LINK_UNIT_WIDTH = 48, LINK_HELP_WIDTH = 149 };
@@ -34,5 +37,12 @@ enum link_place { LINK_IN_FORCE, LINK_STAGED, LINK_NOW, LINK_PLACE_COUNT };
 
 /* Of STEP's reply. */
 enum { LINK_IS_FAULT = 1, LINK_WAS_CLAMPED = 2, LINK_WAS_CUT = 4 };
+
+/* Of VERDICT's reply. */
+enum { LINK_IS_AUDIBLE = 1, LINK_IS_BISTABLE = 2 };
+
+/* Of a study's request, and of POINT. */
+enum { LINK_IS_WHOLE = 1 };
+enum { LINK_IS_LOUD = 1, LINK_IS_UNDECIDED = 2 };
 
 #endif

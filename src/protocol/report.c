@@ -12,7 +12,6 @@
 #define LN2 0.693147181f
 #define GRAVITY_M_PER_S2 9.80665f
 
-/* Creep groan, and brake squeal after SAE J2521. */
 #define GROAN_LOW_HZ 20.0f
 #define GROAN_HIGH_HZ 500.0f
 #define SQUEAL_LOW_HZ 1250.0f
@@ -51,12 +50,19 @@ float report_sound_level(float velocity_m_per_s_rms, float frequency_hz)
     return DB_PER_LOG2 * (fmath_log2(velocity_m_per_s_rms * PRESSURE_PER_VELOCITY) + LOG2_PER_PA);
 }
 
-static const char *band_name(float frequency_hz)
+static uint8_t band_of(float frequency_hz)
 {
     if (frequency_hz >= GROAN_LOW_HZ && frequency_hz <= GROAN_HIGH_HZ) {
-        return "groan";
+        return REPORT_GROAN;
     }
-    return frequency_hz >= SQUEAL_LOW_HZ && frequency_hz <= SQUEAL_HIGH_HZ ? "squeal" : "none";
+    return frequency_hz >= SQUEAL_LOW_HZ && frequency_hz <= SQUEAL_HIGH_HZ ? REPORT_SQUEAL : REPORT_NO_BAND;
+}
+
+const char *report_band_name(uint8_t band)
+{
+    static const char *const names[] = {"none", "groan", "squeal"};
+
+    return names[band < BASE_COUNT(names) ? band : REPORT_NO_BAND];
 }
 
 static float frequency(const struct detector_verdict *verdict, const struct scale *scale)
@@ -79,7 +85,7 @@ static void judge_motion(struct report_verdict *judged, const struct detector_ve
     judged->level_db = rms > 0.0f ? DB_PER_LOG2 * (fmath_log2(rms) + LOG2_PER_M_PER_S) : NOT_A_NUMBER;
     judged->acceleration_g = (float)verdict->acceleration * metres_per_s(scale) / scale->step_s / GRAVITY_M_PER_S2;
     judged->frequency_hz = hz;
-    judged->band = band_name(hz);
+    judged->band = band_of(hz);
     judged->is_audible = hz >= AUDIBLE_LOW_HZ && hz <= AUDIBLE_HIGH_HZ && rms >= AUDIBLE_M_PER_S;
     judged->level_dba_estimate = report_sound_level(rms, hz);
     judged->stick = share(verdict->stick);
@@ -99,7 +105,7 @@ struct report_verdict report_judge(const struct detector_verdict *verdict, const
                                     none,
                                     none,
                                     none,
-                                    "none",
+                                    REPORT_NO_BAND,
                                     false,
                                     none,
                                     none,
@@ -154,17 +160,6 @@ void report_write_class(struct text *text, const struct report_verdict *judged)
     text_key_u64(text, "period", judged->period);
 }
 
-static void write_prediction(struct text *text, const struct prediction *prediction, const struct scale *scale)
-{
-    const bool has_ratio = prediction->verdict != PREDICTION_UNKNOWN;
-
-    text_key_text(text, "predicted", predictor_verdict_name(prediction->verdict));
-    report_field(text, "predicted_growth_per_s", prediction->rate * scale->omega_rad_per_s);
-    report_field(text, "predicted_touch_ratio", has_ratio ? prediction->touch_ratio : NOT_A_NUMBER);
-    report_field(text, "onset_touch_ratio", has_ratio ? prediction->onset_touch_ratio : NOT_A_NUMBER);
-    text_key_text(text, "bistable", prediction->is_bistable ? "yes" : "no");
-}
-
 /* What the closed form says of the set, or where a controller holds force or speed, of what it holds. */
 static struct prediction predict(const struct executive_report *report, const struct sim_plan *plan)
 {
@@ -184,13 +179,43 @@ static struct prediction predict(const struct executive_report *report, const st
     return predictor_predict(&params, &plan->scale);
 }
 
+struct report_answer report_answer(const struct executive_report *report, const struct sim_plan *plan)
+{
+    const struct scale *scale = &plan->scale;
+    const struct prediction prediction = predict(report, plan);
+    const bool has_ratio = prediction.verdict != PREDICTION_UNKNOWN;
+    const float v10_steps = fmath_from_u64(report->v10_step) + (float)report->v10_fraction_q15 / 32768.0f;
+
+    return (struct report_answer){
+        .judged = report_judge(&report->verdict, scale),
+        .predicted = (uint8_t)prediction.verdict,
+        .is_bistable = prediction.is_bistable,
+        .predicted_growth_per_s = prediction.rate * scale->omega_rad_per_s,
+        .predicted_touch_ratio = has_ratio ? prediction.touch_ratio : NOT_A_NUMBER,
+        .onset_touch_ratio = has_ratio ? prediction.onset_touch_ratio : NOT_A_NUMBER,
+        .v10_s = report->has_v10 ? v10_steps * scale->step_s : NOT_A_NUMBER,
+        .sigma = plan->params.tick_hz * plan->params.steps_per_tick * scale->step_s,
+    };
+}
+
+struct report_trial report_trial(const struct trial *trial)
+{
+    const struct prediction *prediction = &trial->plan.prediction;
+    const struct scale *scale = &trial->plan.scale;
+
+    return (struct report_trial){
+        .judged = report_judge(&trial->sim.detector.verdict, scale),
+        .motion = report_motion(&trial->sim.measure, scale),
+        .predicted = (uint8_t)prediction->verdict,
+        .predicted_growth_per_s = prediction->rate * scale->omega_rad_per_s,
+        .periods = trial_periods(trial),
+    };
+}
+
 void report_write_verdict(struct text *text, const struct executive_report *report, const struct sim_plan *plan)
 {
-    const struct report_verdict judged = report_judge(&report->verdict, &plan->scale);
-    const struct scale *scale = &plan->scale;
-    const struct params *params = &plan->params;
-    const struct prediction prediction = predict(report, plan);
-    const float v10_steps = fmath_from_u64(report->v10_step) + (float)report->v10_fraction_q15 / 32768.0f;
+    const struct report_answer answer = report_answer(report, plan);
+    const struct report_verdict judged = answer.judged;
 
     text_key_text(text, "propensity", detector_propensity_name(judged.propensity));
     report_write_class(text, &judged);
@@ -200,16 +225,20 @@ void report_write_verdict(struct text *text, const struct executive_report *repo
     report_field(text, "level_db", judged.level_db);
     report_field(text, "acceleration_g", judged.acceleration_g);
     report_field(text, "frequency_hz", judged.frequency_hz);
-    text_key_text(text, "band", judged.band);
+    text_key_text(text, "band", report_band_name(judged.band));
     text_key_text(text, "audible", judged.is_audible ? "yes" : "no");
     report_field(text, "level_dba_estimate", judged.level_dba_estimate);
     report_field(text, "growth_per_s", judged.growth_per_s);
     report_field(text, "growth_error_per_s", judged.growth_error_per_s);
     report_field(text, "stick", judged.stick);
     report_field(text, "slipminus", judged.slip_minus);
-    write_prediction(text, &prediction, scale);
-    report_field(text, "t_v10", report->has_v10 ? v10_steps * scale->step_s : NOT_A_NUMBER);
-    report_field(text, "sigma", params->tick_hz * params->steps_per_tick * scale->step_s);
+    text_key_text(text, "predicted", predictor_verdict_name((enum predictor_verdict)answer.predicted));
+    report_field(text, "predicted_growth_per_s", answer.predicted_growth_per_s);
+    report_field(text, "predicted_touch_ratio", answer.predicted_touch_ratio);
+    report_field(text, "onset_touch_ratio", answer.onset_touch_ratio);
+    text_key_text(text, "bistable", answer.is_bistable ? "yes" : "no");
+    report_field(text, "t_v10", answer.v10_s);
+    report_field(text, "sigma", answer.sigma);
 }
 
 void report_write_measure(struct text *text, const struct executive_report *report, const struct sim_plan *plan)

@@ -1,23 +1,24 @@
-/* The tests in the order of enum test; those with a plant are spread over many slices. */
+/* The tests in the order of their table; those with a plant are spread over many slices. */
 #include "protocol/selftest.h"
 
 #include "base/assert.h"
+#include "base/compiler.h"
 #include "base/decimal.h"
 #include "base/fmath.h"
 #include "base/hash.h"
 #include "model/presets.h"
 #include "model/sine.h"
 
-enum test {
-    TEST_DECIMAL,
-    TEST_NORMAL,
-    TEST_EQUILIBRIUM,
-    TEST_FORWARD,
-    TEST_MIRROR,
-    TEST_AGAIN,
-    TEST_TICKS,
-    TEST_COUNT
+const struct selftest_info selftest_table[SELFTEST_COUNT] = {
+#define SELFTEST(number, field, name, help) {name, help},
+#include "protocol/selftest.def"
+#undef SELFTEST
 };
+
+#define SELFTEST(number, field, name, help) \
+    BASE_STATIC_ASSERT((number) == (int)SELFTEST_##field && (number) < 32, selftest_##number##_is_a_bit);
+#include "protocol/selftest.def"
+#undef SELFTEST
 
 enum { PERIODS = 20, DIGITS = 3 };
 
@@ -31,6 +32,7 @@ void selftest_start(struct selftest *selftest)
     selftest->is_set = false;
     selftest->passed = 0u;
     selftest->failed = 0u;
+    selftest->failures = 0u;
 }
 
 /* Nine digits carry any float through text: a sequence of bit patterns, printed and read back. */
@@ -54,20 +56,20 @@ static uint32_t decimal_failures(void)
 }
 
 /* What a test's plant is, on top of Table 1. The equilibrium is x = mu(v0) N / (k + kt), y = N / ke. */
-static const char *assignments_of(enum test test)
+static const char *assignments_of(enum selftest_test test)
 {
     switch (test) {
-    case TEST_EQUILIBRIUM:
+    case SELFTEST_EQUILIBRIUM:
         return "alpha 0 x0 0.15 y0 1";
-    case TEST_FORWARD:
-    case TEST_AGAIN:
+    case SELFTEST_FORWARD:
+    case SELFTEST_AGAIN:
         return "N0 10 alpha -0.02 x0 0.1";
-    case TEST_MIRROR:
+    case SELFTEST_MIRROR:
         return "N0 10 alpha -0.02 x0 -0.1 v0 -1";
-    case TEST_DECIMAL:
-    case TEST_NORMAL:
-    case TEST_TICKS:
-    case TEST_COUNT:
+    case SELFTEST_DECIMAL:
+    case SELFTEST_NORMAL:
+    case SELFTEST_TICKS:
+    case SELFTEST_COUNT:
     default:
         return "";
     }
@@ -82,7 +84,7 @@ static void set_plant(struct selftest *selftest)
     enum error error;
 
     params_default(&params);
-    error = presets_assign(&params, assignments_of((enum test)selftest->test), &info, &bad, &bad_length);
+    error = presets_assign(&params, assignments_of((enum selftest_test)selftest->test), &info, &bad, &bad_length);
     BASE_ASSERT(error == ERROR_OK);
     error = sim_plan_make(&selftest->plan, &params, NULL).error;
     BASE_ASSERT(error == ERROR_OK);
@@ -110,7 +112,7 @@ static float deviation(const struct selftest *selftest)
     const struct sim *sim = &selftest->sim;
     const float n = sim->f32.normal.n;
 
-    if (selftest->test == TEST_NORMAL) {
+    if (selftest->test == SELFTEST_NORMAL) {
         const uint32_t grid = SINE_GRID / selftest->plan.scale.steps_per_period;
 
         return fmath_abs(sim->f32.normal.y / n - (1.0f - sine_cosine_f32((uint32_t)sim->step * grid)));
@@ -126,111 +128,146 @@ static bool run_plant(struct selftest *selftest)
     for (unsigned i = 0u; i < SELFTEST_SLICE_STEPS && selftest->step < steps; i++) {
         (void)sim_step(&selftest->sim);
         selftest->step++;
-        selftest->hash = hash_state(selftest->hash, &selftest->sim.f32, selftest->test == TEST_MIRROR);
+        selftest->hash = hash_state(selftest->hash, &selftest->sim.f32, selftest->test == SELFTEST_MIRROR);
         selftest->worst = fmath_max(selftest->worst, deviation(selftest));
     }
     return selftest->step == steps;
 }
 
-static void conclude(struct selftest *selftest, struct text *text, bool has_passed, const char *name)
+static bool conclude(struct selftest *selftest, bool has_passed)
 {
     selftest->passed += has_passed ? 1u : 0u;
     selftest->failed += has_passed ? 0u : 1u;
+    selftest->failures |= has_passed ? 0u : 1u << selftest->test;
     selftest->test++;
     selftest->is_set = false;
-    text_write(text, has_passed ? "- pass " : "- fail ");
-    text_write(text, name);
-    text_put(text, ' ');
+    return true;
 }
 
-static void conclude_deviation(struct selftest *selftest, struct text *text, float tolerance, const char *name)
+static bool conclude_deviation(struct selftest *selftest, float allowed)
 {
     /* A plant that has become NaN is never within tolerance: fmath_max lets it pass, the state does not. */
     const bool is_finite = fmath_is_finite(selftest->sim.f32.x) && fmath_is_finite(selftest->sim.f32.normal.y);
 
-    conclude(selftest, text, is_finite && selftest->worst <= tolerance, name);
-    text_write(text, "largest deviation ");
-    text_f32(text, selftest->worst, DIGITS);
-    text_write(text, ", allowed ");
-    text_f32(text, tolerance, DIGITS);
-    text_end_line(text);
+    selftest->allowed = allowed;
+    return conclude(selftest, is_finite && selftest->worst <= allowed);
 }
 
-static void conclude_hash(struct selftest *selftest, struct text *text, bool has_passed, const char *name)
+static bool conclude_forward(struct selftest *selftest)
 {
-    conclude(selftest, text, has_passed, name);
+    selftest->hash_forward = selftest->hash;
+    selftest->hash_sim = selftest->sim.hash;
+    selftest->counted = selftest->sim.counters.events;
+    return conclude(selftest, selftest->counted > 0u);
+}
+
+static bool conclude_decimal(struct selftest *selftest)
+{
+    selftest->counted = decimal_failures();
+    return conclude(selftest, selftest->counted == 0u);
+}
+
+static bool conclude_ticks(struct selftest *selftest, uint32_t counted, uint32_t expected)
+{
+    const uint32_t apart = counted - expected + 1u; /* 0, 1, 2 for one less, equal, one more */
+
+    selftest->counted = counted;
+    selftest->expected = expected;
+    return conclude(selftest, apart <= 2u);
+}
+
+/* All steps of the test are made. */
+static bool conclude_plant(struct selftest *selftest)
+{
+    switch ((enum selftest_test)selftest->test) {
+    case SELFTEST_NORMAL:
+        return conclude_deviation(selftest, NORMAL_TOLERANCE);
+    case SELFTEST_EQUILIBRIUM:
+        return conclude_deviation(selftest, EQUILIBRIUM_TOLERANCE);
+    case SELFTEST_FORWARD:
+        return conclude_forward(selftest);
+    case SELFTEST_MIRROR:
+        return conclude(selftest, selftest->hash == selftest->hash_forward);
+    case SELFTEST_AGAIN:
+        return conclude(selftest, selftest->hash == selftest->hash_forward && selftest->sim.hash == selftest->hash_sim);
+    case SELFTEST_DECIMAL:
+    case SELFTEST_TICKS:
+    case SELFTEST_COUNT:
+    default:
+        return conclude(selftest, false);
+    }
+}
+
+bool selftest_go_on(struct selftest *selftest, uint32_t ticks_counted, uint32_t ticks_expected)
+{
+    if (selftest->test == SELFTEST_DECIMAL) {
+        return conclude_decimal(selftest);
+    }
+    if (selftest->test == SELFTEST_TICKS) {
+        return conclude_ticks(selftest, ticks_counted, ticks_expected);
+    }
+    if (!selftest->is_set) {
+        set_plant(selftest);
+        return false;
+    }
+    return run_plant(selftest) && conclude_plant(selftest);
+}
+
+bool selftest_is_done(const struct selftest *selftest) { return selftest->test == SELFTEST_COUNT; }
+
+static void write_hashes(struct text *text, const struct selftest *selftest)
+{
     text_write(text, "hash ");
     text_hex32(text, selftest->hash);
     text_write(text, ", expected ");
     text_hex32(text, selftest->hash_forward);
-    text_end_line(text);
 }
 
-static void conclude_plant(struct selftest *selftest, struct text *text)
+static void write_deviation(struct text *text, const struct selftest *selftest)
 {
-    switch ((enum test)selftest->test) {
-    case TEST_NORMAL:
-        conclude_deviation(selftest, text, NORMAL_TOLERANCE, "normal-oscillation");
+    text_write(text, "largest deviation ");
+    text_f32(text, selftest->worst, DIGITS);
+    text_write(text, ", allowed ");
+    text_f32(text, selftest->allowed, DIGITS);
+}
+
+static void write_ticks(struct text *text, const struct selftest *selftest)
+{
+    text_u64(text, selftest->counted);
+    text_write(text, " counted, ");
+    text_u64(text, selftest->expected);
+    text_write(text, " expected by the other clock");
+}
+
+void selftest_write(struct text *text, const struct selftest *selftest)
+{
+    const unsigned test = selftest->test - 1u;
+
+    text_write(text, (selftest->failures >> test & 1u) != 0u ? "fail " : "pass ");
+    text_write(text, selftest_table[test].name);
+    text_put(text, ' ');
+    switch ((enum selftest_test)test) {
+    case SELFTEST_DECIMAL:
+        text_u64(text, selftest->counted);
+        text_write(text, " floats came back changed");
         break;
-    case TEST_EQUILIBRIUM:
-        conclude_deviation(selftest, text, EQUILIBRIUM_TOLERANCE, "equilibrium-stays");
+    case SELFTEST_NORMAL:
+    case SELFTEST_EQUILIBRIUM:
+        write_deviation(text, selftest);
         break;
-    case TEST_FORWARD:
-        selftest->hash_forward = selftest->hash;
-        selftest->hash_sim = selftest->sim.hash;
-        conclude(selftest, text, selftest->sim.counters.events > 0u, "stick-slip");
-        text_u64(text, selftest->sim.counters.events);
+    case SELFTEST_FORWARD:
+        text_u64(text, selftest->counted);
         text_write(text, " events located");
-        text_end_line(text);
         break;
-    case TEST_MIRROR:
-        conclude_hash(selftest, text, selftest->hash == selftest->hash_forward, "mirror-symmetry");
+    case SELFTEST_MIRROR:
+    case SELFTEST_AGAIN:
+        write_hashes(text, selftest);
         break;
-    case TEST_AGAIN:
-        conclude_hash(selftest, text,
-                      selftest->hash == selftest->hash_forward && selftest->sim.hash == selftest->hash_sim,
-                      "same-bits-again");
+    case SELFTEST_TICKS:
+        write_ticks(text, selftest);
         break;
-    case TEST_DECIMAL:
-    case TEST_TICKS:
-    case TEST_COUNT:
+    case SELFTEST_COUNT:
     default:
         break;
     }
-}
-
-static void conclude_decimal(struct selftest *selftest, struct text *text)
-{
-    const uint32_t failures = decimal_failures();
-
-    conclude(selftest, text, failures == 0u, "decimal-round-trip");
-    text_u64(text, failures);
-    text_write(text, " floats came back changed");
-    text_end_line(text);
-}
-
-static void conclude_ticks(struct selftest *selftest, struct text *text, uint32_t counted, uint32_t expected)
-{
-    const uint32_t apart = counted - expected + 1u; /* 0, 1, 2 for one less, equal, one more */
-
-    conclude(selftest, text, apart <= 2u, "ticks");
-    text_u64(text, counted);
-    text_write(text, " counted, ");
-    text_u64(text, expected);
-    text_write(text, " expected by the other clock");
-    text_end_line(text);
-}
-
-bool selftest_continue(struct selftest *selftest, struct text *text, uint32_t counted, uint32_t expected)
-{
-    if (selftest->test == TEST_DECIMAL) {
-        conclude_decimal(selftest, text);
-    } else if (selftest->test == TEST_TICKS) {
-        conclude_ticks(selftest, text, counted, expected);
-    } else if (!selftest->is_set) {
-        set_plant(selftest);
-    } else if (run_plant(selftest)) {
-        conclude_plant(selftest, text);
-    }
-    return selftest->test == TEST_COUNT;
 }

@@ -11,24 +11,45 @@
 
 enum { SELFTEST_SLICE_STEPS = 128 }; /* at most this many steps of the plant a poll */
 
+enum selftest_test {
+#define SELFTEST(number, field, name, help) SELFTEST_##field,
+#include "protocol/selftest.def"
+#undef SELFTEST
+    SELFTEST_COUNT
+};
+
+struct selftest_info {
+    const char *name, *help;
+};
+
+extern const struct selftest_info selftest_table[SELFTEST_COUNT];
+
 struct selftest {
     struct sim_plan plan;
     struct sim sim;
-    uint8_t test; /* index of the one under way */
+    uint8_t test; /* number of the one under way */
     bool is_set;  /* its plant stands at its first step */
     uint32_t passed, failed;
-    uint32_t step;         /* of the test under way */
-    float worst;           /* deviation so far */
-    uint32_t hash;         /* of the states of the test under way */
-    uint32_t hash_forward; /* the same of the tests that later ones are compared with */
+    uint32_t failures; /* bit i: test i failed */
+    uint32_t step;     /* of the test under way */
+
+    /* what was found, and what it was compared with */
+    float worst, allowed;       /* deviation so far */
+    uint32_t counted, expected; /* failures, events, ticks */
+    uint32_t hash;              /* of the states of the test under way */
+    uint32_t hash_forward;      /* the same of the tests that later ones are compared with */
     uint32_t hash_sim;
 };
 
 /* [MAIN] */
 void selftest_start(struct selftest *selftest);
 
-/* A slice. Writes "pass|fail <test> <detail>" into a body line for each test that is finished; counted and expected are
- * the ticks of two clocks. Returns true when all are done. [MAIN] */
-bool selftest_continue(struct selftest *selftest, struct text *text, uint32_t counted, uint32_t expected);
+/* A slice; ticks_counted and ticks_expected are the ticks of two clocks. True if it has finished a test. [MAIN] */
+bool selftest_go_on(struct selftest *selftest, uint32_t ticks_counted, uint32_t ticks_expected);
+
+bool selftest_is_done(const struct selftest *selftest);
+
+/* "pass|fail <test> <detail>" of the test finished last. [MAIN] */
+void selftest_write(struct text *text, const struct selftest *selftest);
 
 #endif

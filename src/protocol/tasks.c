@@ -2,6 +2,7 @@
 #include "base/decimal.h"
 #include "protocol/console_parts.h"
 #include "protocol/report.h"
+#include "protocol/studying.h"
 
 void console_start_task(struct console *console, enum console_task task)
 {
@@ -192,11 +193,15 @@ static bool continue_stream(struct console *console)
 
 static bool continue_selftest(struct console *console)
 {
-    const struct selftest *selftest = &console->selftest;
+    struct work *work = console->work;
+    struct selftest *selftest = &work->selftest;
 
-    line_make_way(&console->line, console->text);
-    if (!selftest_continue(&console->selftest, console->text, console->clock.ticks_counted,
-                           console->clock.ticks_expected)) {
+    if (selftest_go_on(selftest, work->ticks_counted, work->ticks_expected)) {
+        console_begin_body(console);
+        selftest_write(console->text, selftest);
+        console_end(console);
+    }
+    if (!selftest_is_done(selftest)) {
         return true;
     }
     if (selftest->failed == 0u) {
@@ -219,9 +224,7 @@ static bool ends_early(struct console *console)
     case CONSOLE_TASK_MEASURE:
     case CONSOLE_TASK_DEMO:
     case CONSOLE_TASK_SELFTEST:
-    case CONSOLE_TASK_SCAN:
-    case CONSOLE_TASK_MARGIN:
-    case CONSOLE_TASK_OCCURRENCE:
+    case CONSOLE_TASK_STUDY:
         return console->stops_waiting > 0u || console->turn->is_wanted;
     case CONSOLE_TASK_NONE:
     case CONSOLE_TASK_SETTING:
@@ -243,8 +246,8 @@ bool console_task_continue(struct console *console)
     if (console->is_ending) {
         return continue_stop(console);
     }
-    if (ends_early(console) && study_is_under_way(console)) {
-        study_cut_short(console);
+    if (ends_early(console) && console->task == CONSOLE_TASK_STUDY) {
+        studying_cut_short(console);
         return true;
     }
     if (ends_early(console) && !executive_has_order(console->executive)) {
@@ -263,12 +266,8 @@ bool console_task_continue(struct console *console)
         return demo_continue(console);
     case CONSOLE_TASK_SELFTEST:
         return continue_selftest(console);
-    case CONSOLE_TASK_SCAN:
-        return study_scan_continue(console);
-    case CONSOLE_TASK_MARGIN:
-        return study_margin_continue(console);
-    case CONSOLE_TASK_OCCURRENCE:
-        return study_occurrence_continue(console);
+    case CONSOLE_TASK_STUDY:
+        return studying_continue(console);
     case CONSOLE_TASK_NONE:
     case CONSOLE_TASK_STOP:
     default:

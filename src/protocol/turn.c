@@ -35,3 +35,19 @@ void turn_leave_stream(struct turn *turn, enum turn_side side)
         turn->streams = TURN_NOBODY;
     }
 }
+
+bool turn_take_study(struct turn *turn, enum turn_side side)
+{
+    if (turn->studies != TURN_NOBODY) {
+        return false;
+    }
+    turn->studies = side;
+    return true;
+}
+
+void turn_leave_study(struct turn *turn, enum turn_side side)
+{
+    if (turn->studies == side) {
+        turn->studies = TURN_NOBODY;
+    }
+}

@@ -2,7 +2,8 @@
  * way. Whoever has the turn keeps it until its command is answered; the other's commands wait (console) or are refused
  * (link). Only a stop does not wait: turn_want() makes the other end early.
  *
- * The executive's one ring of samples belongs to one stream: it is refused to the other until that has ended. [MAIN] */
+ * The executive's one ring of samples belongs to one stream: it is refused to the other until that has ended. So is the one
+ * study to whoever asks for a second. A study has a plant of its own and needs no turn. [MAIN] */
 #ifndef PROTOCOL_TURN_H
 #define PROTOCOL_TURN_H
 
@@ -12,7 +13,7 @@ enum turn_side { TURN_NOBODY, TURN_CONSOLE, TURN_LINK };
 
 /* All zero at the start. */
 struct turn {
-    enum turn_side holder, streams;
+    enum turn_side holder, streams, studies;
     bool is_wanted; /* the holder should end early */
 };
 
@@ -28,5 +29,9 @@ void turn_want(struct turn *turn, enum turn_side side);
 /* The same for the ring of samples. */
 bool turn_take_stream(struct turn *turn, enum turn_side side);
 void turn_leave_stream(struct turn *turn, enum turn_side side);
+
+/* The same for the study; false as well while the side's own is under way. */
+bool turn_take_study(struct turn *turn, enum turn_side side);
+void turn_leave_study(struct turn *turn, enum turn_side side);
 
 #endif

@@ -15,6 +15,8 @@
 
 #define MARGIN_WIDTH 1e-3f          /* of a bracket, relative */
 #define MARGIN_FACTOR_DEFAULT 16.0f /* how far to look: from value/16 to 16 value */
+#define MARGIN_FACTOR_LOW 1.001f
+#define MARGIN_FACTOR_HIGH 1e6f
 
 enum margin_answer { MARGIN_QUIET, MARGIN_LOUD, MARGIN_REFUSED };
 

@@ -15,6 +15,9 @@ bool bench_link_is_read;
 static struct bench_frame reply_heard;
 static bool has_reply;
 
+struct bench_frame bench_results[BENCH_RESULTS_MAX];
+size_t bench_result_count;
+
 static const struct identity identity = {.version = "0.0.0",
                                          .build = "test",
                                          .board = "bench",
@@ -109,7 +112,11 @@ static void hear_link(void)
         if (!frame_take(&bench.controller, bytes[i], &frame)) {
             continue;
         }
-        if (frame.type != LINK_SAMPLE) {
+        if (frame.type == LINK_POINT || frame.type == LINK_BORDER || frame.type == LINK_STUDY_END) {
+            if (bench_result_count < BENCH_RESULTS_MAX) {
+                keep(&bench_results[bench_result_count++], &frame);
+            }
+        } else if (frame.type != LINK_SAMPLE) {
             keep(&reply_heard, &frame);
             has_reply = true;
         } else if (bench_sample_count < BENCH_SAMPLES_MAX) {
@@ -217,11 +224,13 @@ void bench_open(void)
     executive_init(&bench.executive, ARITH_F32);
     text_init(&bench.text, storage, sizeof storage);
     bench.turn = (struct turn){.holder = TURN_NOBODY};
-    console_init(&bench.console, &bench.executive, &bench.turn, &bench.text, &identity);
+    memset(&bench.work, 0, sizeof bench.work);
+    console_init(&bench.console, &bench.executive, &bench.turn, &bench.work, &bench.text, &identity);
     text_init(&bench.link_text, link_storage, sizeof link_storage);
-    link_init(&bench.link, &bench.executive, &bench.turn, &bench.link_text, &identity);
+    link_init(&bench.link, &bench.executive, &bench.turn, &bench.work, &bench.link_text, &identity);
     frame_open(&bench.controller);
     bench_sample_count = 0u;
+    bench_result_count = 0u;
     bench_link_is_read = true;
     (void)bench_say("echo off\r");
     bench_listen_anew();

@@ -14,6 +14,7 @@ enum { BENCH_BAUD = 115200, BENCH_HEARD_MAX = 32768 };
 struct bench {
     struct executive executive;
     struct turn turn;
+    struct work work;
     struct console console;
     struct text text;
     struct link link;
@@ -56,10 +57,15 @@ enum { BENCH_SAMPLES_MAX = 2048 };
 extern struct bench_frame bench_samples[BENCH_SAMPLES_MAX]; /* that came since bench_open() */
 extern size_t bench_sample_count;
 
-/* Sends the frame and turns until something answers that is no sample, at most limit times. False if nothing did. */
+enum { BENCH_RESULTS_MAX = 128 };
+
+extern struct bench_frame bench_results[BENCH_RESULTS_MAX]; /* of studies, that came since bench_open() */
+extern size_t bench_result_count;
+
+/* Sends the frame and turns until something answers that is no sample or result, at most limit times. False if nothing did. */
 bool bench_ask(const struct bench_frame *request, struct bench_frame *reply, unsigned limit);
 
-/* Offers bytes to the link and turns n times; true if a frame came that is no sample, the last in *reply. */
+/* Offers bytes to the link and turns n times; true if a frame came that is no sample or result, the last in *reply. */
 bool bench_link_turns(const uint8_t *bytes, size_t size, unsigned turns, struct bench_frame *reply);
 
 /* Turns n times without saying anything. */

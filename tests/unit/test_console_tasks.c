@@ -89,13 +89,13 @@ static void check_notices(void)
 static void check_selftest(void)
 {
     bench_open();
-    bench.console.clock.ticks_counted = 1000u;
-    bench.console.clock.ticks_expected = 1001u;
+    bench.work.ticks_counted = 1000u;
+    bench.work.ticks_expected = 1001u;
     tap_check_text(bench_say("selftest\r"), "ok selftest passed=7 failed=0", "the self-test passes");
-    bench.console.clock.ticks_expected = 1002u;
+    bench.work.ticks_expected = 1002u;
     tap_check_text(bench_say("selftest\r"), "error selftest passed=6 failed=1", "lost ticks fail it");
     tap_check(bench_holds(bench.heard, "- fail ticks 1000 counted, 1002 expected by the other clock\r\n"), "by name");
-    bench.console.clock.ticks_expected = 998u;
+    bench.work.ticks_expected = 998u;
     tap_check_text(bench_say("selftest\r"), "error selftest passed=6 failed=1", "so do too many");
 }
 

@@ -154,10 +154,10 @@ static void check_stop(void)
     bench_listen_anew();
     (void)bench_turn("scan N0 1 10 100 whole\r", 23u, SIZE_MAX, &is_busy);
     bench_wait(300u);
-    tap_check(bench.console.task == CONSOLE_TASK_SCAN && is_busy, "a map is under way");
-    before = bench.console.study.trial.sim.step;
+    tap_check(bench.console.task == CONSOLE_TASK_STUDY && is_busy, "a map is under way");
+    before = bench.work.study.trial.sim.step;
     (void)console_poll(&bench.console);
-    tap_check(bench.console.study.trial.sim.step - before > 0u && bench.console.study.trial.sim.step - before <= 128u,
+    tap_check(bench.work.study.trial.sim.step - before > 0u && bench.work.study.trial.sim.step - before <= 128u,
               "a poll makes 128 steps of it at most, half of what may lie between two looks at the line");
     before = bench.executive.sim.step;
     tap_check(bench_starts(bench_say("stop\r"), "ok stop step="), "a stop is answered");

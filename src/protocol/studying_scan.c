@@ -1,24 +1,24 @@
 /* scan: a map over one parameter or two. */
-#include "protocol/study_parts.h"
+#include "protocol/studying_parts.h"
 #include "protocol/values.h"
 
 /* "<symbol> <from> <to> <points> [log]"; *word moves past it. */
 static bool read_axis(struct console *console, struct token *word, struct scan_axis *axis)
 {
-    axis->info = study_read_parameter(console, *word);
+    axis->info = studying_read_parameter(console, *word);
     if (axis->info == NULL) {
         return false;
     }
     *word = token_next(*word);
-    if (!study_read_value(console, axis->info, *word, &axis->from)) {
+    if (!studying_read_value(console, axis->info, *word, &axis->from)) {
         return false;
     }
     *word = token_next(*word);
-    if (!study_read_value(console, axis->info, *word, &axis->to)) {
+    if (!studying_read_value(console, axis->info, *word, &axis->to)) {
         return false;
     }
     *word = token_next(*word);
-    if (!study_read_count(console, "points", *word, 1u, SCAN_POINTS_MAX, &axis->points)) {
+    if (!studying_read_count(console, "points", *word, 1u, SCAN_POINTS_MAX, &axis->points)) {
         return false;
     }
     *word = token_next(*word);
@@ -34,7 +34,7 @@ static bool read_axis(struct console *console, struct token *word, struct scan_a
     return true;
 }
 
-void study_scan_obey(struct console *console)
+void studying_scan(struct console *console)
 {
     struct token word = token_first(console->arguments);
     struct trial_span span = {.transient = TRIAL_TRANSIENT_DEFAULT, .window = TRIAL_WINDOW_DEFAULT};
@@ -43,7 +43,7 @@ void study_scan_obey(struct console *console)
     if (!read_axis(console, &word, &scan.axes[0])) {
         return;
     }
-    if (word.length != 0u && !study_is_span(word)) {
+    if (word.length != 0u && !studying_is_span(word)) {
         scan.axis_count = 2u;
         if (!read_axis(console, &word, &scan.axes[1])) {
             return;
@@ -53,55 +53,31 @@ void study_scan_obey(struct console *console)
             return;
         }
     }
-    if (!study_read_span(console, word, &span)) {
+    if (!studying_read_span(console, word, &span)) {
         return;
     }
-    console->study.scan.scan = scan;
-    console->study.span = span;
-    console->study.scan.point = 0u;
-    study_start(console, CONSOLE_TASK_SCAN);
+    if (studying_start(console)) {
+        study_begin_scan(&console->work->study, &scan, &span);
+    }
 }
 
-static void write_point(struct console *console, const struct params_problem *problem)
+void studying_write_point(struct console *console)
 {
-    const struct study *study = &console->study;
-    const struct scan *scan = &study->scan.scan;
-    const uint32_t point = study->scan.point;
+    const struct study *study = &console->work->study;
+    const struct scan *scan = &study->scan;
+    const uint32_t point = study->done - 1u;
     struct text *text = console->text;
 
     console_begin_body(console);
     text_write(text, "point");
-    text_key_u64(text, "done", point + 1u);
-    text_key_u64(text, "of", scan_points(scan));
+    text_key_u64(text, "done", study->done);
+    text_key_u64(text, "of", study->of);
     text_key_u64(text, "i", scan_place(scan, point, 0u));
     text_key_u64(text, "j", scan_place(scan, point, 1u));
     for (uint32_t i = 0u; i < scan->axis_count; i++) {
         text_key_text(text, scan->axes[i].info->symbol, "");
         values_write(text, scan->axes[i].info, params_value(&study->wanted, scan->axes[i].info));
     }
-    study_write_outcome(text, &study->trial, problem);
+    studying_write_outcome(text, study);
     console_end(console);
-}
-
-bool study_scan_continue(struct console *console)
-{
-    struct study *study = &console->study;
-    struct study_scan *scan = &study->scan;
-    struct params_problem problem;
-
-    if (!study->is_trying) {
-        scan_params(&scan->scan, scan->point, &study->wanted);
-    }
-    if (!study_try(study, &study->wanted, &problem)) {
-        return true;
-    }
-    write_point(console, &problem);
-    scan->point++;
-    if (scan->point == scan_points(&scan->scan)) {
-        console_begin_ok(console);
-        study_write_tally(console->text, &study->tally);
-        console_end(console);
-        console_end_task(console);
-    }
-    return true;
 }
