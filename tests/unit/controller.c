@@ -2,6 +2,7 @@
 #include "controller.h"
 
 #include "model/presets.h"
+#include "protocol/report.h"
 
 enum { LIMIT = 20000 };
 
@@ -44,6 +45,24 @@ bool is_done(enum link_message type)
 {
     say(type, 1u, 0u);
     return is_answered();
+}
+
+static bool holds(const char *text, const char *key, float value, void (*write)(struct text *, const char *, float))
+{
+    uint8_t storage[64];
+    struct text field;
+
+    text_init(&field, storage, sizeof storage);
+    write(&field, key, value);
+    text_put(&field, '\0');
+    return bench_holds(text, (const char *)storage);
+}
+
+bool holds_value(const char *text, const char *key, float value) { return holds(text, key, value, report_field); }
+
+bool holds_setting(const char *text, const char *key, float value)
+{
+    return holds(text, key, value, text_key_shortest);
 }
 
 uint8_t index_of(const char *symbol, size_t length) { return (uint8_t)(params_find(symbol, length) - params_table); }

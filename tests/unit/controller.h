@@ -32,6 +32,10 @@ bool has_range(float low, float high);
 /* A whole request without fields. */
 bool is_done(enum link_message type);
 
+/* Does the text hold " key=value", as the console writes a float? */
+bool holds_value(const char *text, const char *key, float value);
+bool holds_setting(const char *text, const char *key, float value); /* as it writes a parameter */
+
 /* The place of a parameter in its table; a preset by name. */
 uint8_t index_of(const char *symbol, size_t length);
 bool load_preset(const char *name, size_t length);

@@ -120,6 +120,9 @@ static void check_dictionary(void)
     for (size_t i = 0u; i < presets_count; i++) {
         ok = ok && row_is(2u, (uint8_t)i, presets_table[i].name);
     }
+    for (unsigned i = 0u; i < SELFTEST_COUNT; i++) {
+        ok = ok && row_is(3u, (uint8_t)i, selftest_table[i].name);
+    }
     tap_check(ok, "every row of every table, its name whole");
     ok = look_up(0u, index_of("contact", 7u)) && bytes_get_u16(&answer) == index_of("contact", 7u) * 256u &&
          bytes_get_u8(&answer) == params_count && bytes_get_u16(&answer) == 10u && bytes_get_u8(&answer) == 2u &&
@@ -131,8 +134,8 @@ static void check_dictionary(void)
     bytes_get_text(&answer, text, 149u);
     tap_check(bench_starts(text, "negative contact force") && bytes_is_spent(&answer), "and what it is");
     say(LINK_DICTIONARY, 2u, 0u);
-    bytes_put_u16(&fields, 3u);
-    tap_check(is_refused(ERROR_OUT_OF_RANGE, 0u, 0u) && has_range(0.0f, 2.0f), "there are three tables");
+    bytes_put_u16(&fields, 4u);
+    tap_check(is_refused(ERROR_OUT_OF_RANGE, 0u, 0u) && has_range(0.0f, 3.0f), "there are four tables");
     say(LINK_DICTIONARY, 2u, 0u);
     bytes_put_u16(&fields, 0xff01u);
     tap_check(is_refused(ERROR_OUT_OF_RANGE, 1u, 0u) && has_range(0.0f, (float)(SIGNAL_COUNT - 1)), "each with an end");

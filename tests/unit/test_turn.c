@@ -27,4 +27,11 @@ void test_turn(void)
     turn_leave_stream(&turn, TURN_CONSOLE);
     turn_leave_stream(&turn, TURN_LINK);
     tap_check(turn_take_stream(&turn, TURN_CONSOLE), "the other when it has ended");
+    tap_check(turn_take_study(&turn, TURN_LINK) && !turn_take_study(&turn, TURN_CONSOLE) &&
+                  !turn_take_study(&turn, TURN_LINK),
+              "one study at a time, whoever asks for a second");
+    turn_leave_study(&turn, TURN_CONSOLE);
+    tap_check(!turn_take_study(&turn, TURN_CONSOLE), "which the other cannot end");
+    turn_leave_study(&turn, TURN_LINK);
+    tap_check(turn_take_study(&turn, TURN_CONSOLE), "and the next when it has ended");
 }
