@@ -26,10 +26,12 @@ PRESETS = [row[0].strip('"') for row in rows("model/presets.def", "PRESET")]
 
 # Payloads of requests and replies, for struct.
 REQUESTS = {"HELLO": "BB", "PING": "Q", "STATUS": "", "DICTIONARY": "BB", "READ": "BB", "STAGE": "Bf", "COMMIT": "IB",
-            "REVERT": "", "PRESET": "B", "RUN": "", "STOP": "", "RESET": "", "STEP": "IBBff", "INPUT": "QBBff", "STREAM": "II"}
+            "REVERT": "", "PRESET": "B", "RUN": "", "STOP": "", "RESET": "", "STEP": "IBBff", "INPUT": "QBBff", "STREAM": "II",
+            "SCAN": "BBffHBBffHHHB", "MARGIN": "BfHHB", "VERDICT": "", "SELFTEST": "", "OCCURRENCE": "IIB4fHHB"}
 REPLIES = {"HELLO": "BBHHHBBBBH16s32s24s16s", "PING": "Q", "STATUS": "BQIIIff24I", "DICTIONARY": "BBBHBBfff24s48s149s",
            "READ": "BBf", "STAGE": "BfI", "COMMIT": "IBI", "REVERT": "I", "PRESET": "II", "RUN": "Q", "STOP": "Q", "RESET": "Q",
-           "STEP": "QI7fbBBBB", "INPUT": "B", "STREAM": "IIH"}
+           "STEP": "QI7fbBBBB", "INPUT": "B", "STREAM": "IIH", "SCAN": "I", "MARGIN": "I", "VERDICT": "6B16f",
+           "SELFTEST": "BBI", "OCCURRENCE": "I"}
 STATUS = ("state step generation hash set_crc step_s sigma events caps saturations lifted gap_held ticks overruns shed inputs late "
           "clamped inputs_refused offered sent dropped waiting accepted damaged too_long bad_cobs too_short bad_crc garbage "
           "refused").split()
@@ -37,6 +39,17 @@ STEP = "step hash x xd y yd load friction v0 mode propensity motion period flags
 KEEP, PROFILE, FORCE, PRESSURE = range(4)
 KEEP, PROFILE, DISC, VEHICLE = range(4)
 SAMPLE, ERROR = 0x40, 0xff
+
+# What a study tells by itself: name and fields by the type of the frame.
+RESULTS = {
+    0x41: ("POINT", "Iff7B8f", "point first second error propensity motion period predicted end flags amplitude_um velocity_mm_s "
+           "frequency_hz level_db growth_per_s growth_error_per_s predicted_growth_per_s periods"),
+    0x42: ("BORDER", "BBB9f", "parameter now quiets value below below_quiet below_squeal below_searched "
+           "above above_quiet above_squeal above_searched"),
+    0x43: ("STUDY_END", "BBI12IQ3fI", "request reason results trials unknown quiet watch squeal loud undecided refused diverged caps "
+           "saturations gap_held steps share low high clamped"),
+}
+NO_PARAMETER = 255
 
 
 class Silence(Exception):
@@ -78,6 +91,13 @@ def unwire(data):
     return struct.unpack("<BHI", body[:7]) + (body[7:-4],)
 
 
+def result(found):
+    """The fields of a frame that a study has sent."""
+    kind, sequence, step, payload = found
+    name, form, names = RESULTS[kind]
+    return dict(zip(names.split(), struct.unpack("<" + form, payload)), frame=name, sequence=sequence, step=step)
+
+
 class Refused(Exception):
     """ERROR, with its fields."""
 
@@ -103,7 +123,7 @@ class Controller:
                     raise
                 time.sleep(0.02)
         self.sequence, self.step_sequence, self.at, self.partial = 0, 0, 0, b""
-        self.pieces, self.samples, self.raw = [], [], b""
+        self.pieces, self.samples, self.results, self.raw = [], [], [], b""
 
     def close(self):
         self.socket.close()
@@ -129,12 +149,23 @@ class Controller:
         return found
 
     def frame(self):
-        """The next frame that is no sample; samples are put aside."""
+        """The next frame that is a reply; samples and results of a study are put aside."""
         while True:
             found = self.any_frame()
-            if found[0] != SAMPLE:
+            if found[0] == SAMPLE:
+                self.samples.append(found[1:])
+            elif found[0] in RESULTS:
+                self.results.append(result(found))
+            else:
                 return found
-            self.samples.append(found[1:])
+
+    def study_end(self):
+        """All results of the study under way, its STUDY_END the last of them."""
+        while not self.results or self.results[-1]["frame"] != "STUDY_END":
+            found = self.any_frame()
+            (self.results.append(result(found)) if found[0] in RESULTS else self.samples.append(found[1:]))
+        told, self.results = self.results, []
+        return told
 
     def answer(self, name, sequence):
         kind, echoed, at, payload = self.frame()
