@@ -38,6 +38,9 @@ STATUS = ("state step generation hash set_crc step_s sigma events caps saturatio
 STEP = "step hash x xd y yd load friction v0 mode propensity motion period flags".split()
 KEEP, PROFILE, FORCE, PRESSURE = range(4)
 KEEP, PROFILE, DISC, VEHICLE = range(4)
+VERDICT = ("propensity motion period band predicted flags amplitude_um velocity_mm_s velocity_mm_s_rms level_db acceleration_g "
+           "frequency_hz level_dba_estimate growth_per_s growth_error_per_s stick slipminus predicted_growth_per_s "
+           "predicted_touch_ratio onset_touch_ratio t_v10 sigma").split()
 SAMPLE, ERROR = 0x40, 0xff
 
 # What a study tells by itself: name and fields by the type of the frame.

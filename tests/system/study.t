@@ -10,7 +10,7 @@ import tempfile
 import time
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from controller import FORCE, NO_PARAMETER, SYMBOLS, Controller  # noqa: E402
+from controller import FORCE, NO_PARAMETER, SYMBOLS, VERDICT, Controller  # noqa: E402
 from firmware import Firmware, Tap, fields  # noqa: E402
 
 LINES = [
@@ -78,7 +78,7 @@ with Firmware("board", limit_s=120) as board, Firmware("host", limit_s=120) as h
 # --- Over the link --------------------------------------------------------------------------------------------------
 WORDS = {"propensity": "unknown quiet watch squeal".split(), "predicted": "unknown quiet watch squeal".split(),
          "end": "none whole squealed decayed diverged grew".split(), "quiets": "none down up any".split(),
-         "now": "quiet squeal".split(), "error": {7: "out-of-scale"}}
+         "band": "none groan squeal".split(), "now": "quiet squeal".split(), "error": {7: "out-of-scale"}}
 folder = tempfile.mkdtemp(prefix="squeal-study-")
 WHOLE, SPAN = 1, (100, 40, 0)
 
@@ -108,6 +108,7 @@ def both(where):
     with Firmware(where, limit_s=120, link=path) as firmware:
         controller = Controller(path, limit_s=120)
         firmware.ask("preset brake")
+        firmware.ask("step 20000")
         firmware.send("scan N1 1000 30000 3 log alpha -0.08 -0.03 2 transient 100")
         lines, first, second = [firmware.answer()] + firmware.body, SYMBOLS.index("N1"), SYMBOLS.index("alpha")
         promised = controller.ask("SCAN", first, 1, 1000.0, 30000.0, 3, second, 0, -0.08, -0.03, 2, *SPAN)
@@ -124,6 +125,9 @@ def both(where):
         wrong = differences(end, lines[0]) + differences(border, lines[1])
         tap.check(not wrong and border["parameter"] == first and abs(border["below"] - 2000) < 10,
                   f"{where}: and is the console's", *wrong)
+        word, verdict = firmware.ask("verdict"), dict(zip(VERDICT, controller.ask("VERDICT")))
+        tap.check(not differences(verdict, " ".join(map("=".join, word.items()))), f"{where}: so is the verdict")
+        tap.check(controller.ask("SELFTEST") == (7, 0, 0), f"{where}: the device's own tests pass")
         controller.ask("SCAN", first, 0, 1000.0, 3000.0, 100, NO_PARAMETER, 0, 0.0, 0.0, 0, 360, 40, WHOLE)
         busy = firmware.ask("scan N1 1 2 2"), controller.refusal("MARGIN", NO_PARAMETER, 2.0, 0, 8, 0).reason
         controller.ask("RUN")
