@@ -27,14 +27,16 @@
 
 enum {
     LINK_MAJOR = 1,
-    LINK_MINOR = 0,
+    LINK_MINOR = 1,
     LINK_REPLY = 0x80, /* added to the request's type */
     LINK_ERROR = 0xff,
     LINK_SAMPLE = 0x40,
     LINK_ERROR_SIZE = 15, /* bytes of its payload */
     LINK_NO_INDEX = 255,
     LINK_STEP_REPLY = 45,
-    LINK_REQUEST_MAX = 18 /* bytes of the longest request's payload */
+    LINK_STEP_REQUEST = 14,
+    LINK_PIECE = 232,      /* bytes of a run that go over at a time */
+    LINK_REQUEST_MAX = 236 /* bytes of the longest request's payload */
 };
 
 enum link_message {
@@ -60,9 +62,19 @@ struct link_steps {
 
     bool has_last;
     uint32_t resets; /* of the plant, when it was answered */
-    struct link_request last;
+    uint16_t last_sequence;
+    uint32_t last_at; /* the request's step */
+    uint8_t last_payload[LINK_STEP_REQUEST];
     uint32_t last_step; /* in the reply's head */
     uint8_t last_reply[LINK_STEP_REPLY];
+};
+
+/* What the executive's image holds for the link, which goes over in pieces. */
+enum link_image_state { LINK_IMAGE_NONE, LINK_IMAGE_TAKEN, LINK_IMAGE_COMING };
+
+struct link_image {
+    enum link_image_state state;
+    uint16_t next; /* bytes of one that is coming that are here */
 };
 
 struct link_stream {
@@ -93,6 +105,7 @@ struct link {
     bool was_reset;                 /* by the COMMIT under way */
     struct link_steps steps;
     struct link_stream stream;
+    struct link_image image;
 
     uint32_t refused; /* requests answered with ERROR */
 };

@@ -37,6 +37,9 @@ enum link_progress link_refuse_problem(struct link *link, const struct params_pr
 
 enum link_progress link_refuse_plain(struct link *link, enum error error);
 
+/* May the plant, which stands as the report says, be stepped or copied from here? Takes the turn. ERROR_OK, or why not. */
+enum error link_find_obstacle(struct link *link, const struct executive_report *report);
+
 /* Samples of the link's stream: is one waiting, those written or lost since it began. */
 bool link_has_sample(const struct link *link);
 uint32_t link_dropped(const struct link *link);

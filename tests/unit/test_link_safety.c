@@ -1,0 +1,2 @@
+void test_link_safety(void);
+void test_link_safety(void) {}

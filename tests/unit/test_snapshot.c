@@ -1,0 +1,2 @@
+void test_snapshot(void);
+void test_snapshot(void) {}
