@@ -175,12 +175,17 @@ void executive_grant(struct executive *executive, uint32_t steps)
 enum error executive_free_run(struct executive *executive)
 {
     const struct input_demand start = {.step = INPUT_NOW, .starts = true};
-    const enum error error = is_safe(executive) ? executive_input(executive, &start, NULL) : ERROR_OK;
 
-    if (error == ERROR_OK) {
-        word_write(&executive->is_free, 1u);
+    if (is_safe(executive)) {
+        const enum error error = executive_input(executive, &start, NULL);
+
+        if (error != ERROR_OK) {
+            return error;
+        }
+        give_order(executive); /* so that it is taken before anything else is asked */
     }
-    return error;
+    word_write(&executive->is_free, 1u);
+    return ERROR_OK;
 }
 
 void executive_stop(struct executive *executive)

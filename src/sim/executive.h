@@ -142,7 +142,7 @@ struct params_problem executive_restore(struct executive *executive);
 enum error executive_input(struct executive *executive, const struct input_demand *demand, bool *is_clamped);
 
 /* Credit: n more steps (at most EXECUTIVE_GRANT_MAX outstanding), endless, or none any more. A free run is an explicit start,
- * and leaves the safe state; BUSY if there is no place for that. [MAIN] */
+ * and leaves the safe state, by an order; BUSY if there is no place for that. [MAIN] */
 void executive_grant(struct executive *executive, uint32_t steps);
 enum error executive_free_run(struct executive *executive);
 void executive_stop(struct executive *executive);

@@ -132,18 +132,18 @@ static void pass_time(struct executive *executive, uint32_t ticks)
     }
 }
 
-/* One step, and before it whatever belongs to it. Returns true if it brought something new to say. */
+/* One step, and before it whatever belongs to it. Returns true when the detector has a new verdict. */
 static bool make_step(struct executive *executive, const struct watch_pace *pace)
 {
-    bool has_news = false;
+    bool has_news;
 
     if (executive->inputs_waiting.count != 0u) {
         take_due_inputs(executive);
     }
     if (executive->sim.watch.state != WATCH_OFF) {
-        has_news = sim_watch(&executive->sim, pace);
+        sim_watch(&executive->sim, pace);
     }
-    has_news = sim_step(&executive->sim) || has_news;
+    has_news = sim_step(&executive->sim);
     if (executive->in_force.sample_every != 0u && --executive->until_sample == 0u) {
         push_sample(executive);
     }
@@ -154,12 +154,17 @@ bool executive_tick(struct executive *executive, bool is_due)
 {
     const struct watch_config *watch = &executive->in_force.plan.watch;
     const struct watch_pace *pace;
+    uint8_t watch_before;
     uint32_t steps;
     bool has_news = false;
 
     take_order(executive);
+    watch_before = executive->sim.watch.state;
     if (!is_due) {
         collect_inputs(executive);
+        if (executive->sim.watch.state != watch_before) {
+            write_report(executive);
+        }
         return false;
     }
     if (executive->to_shed != 0u) {
@@ -178,6 +183,7 @@ bool executive_tick(struct executive *executive, bool is_due)
         word_write(&executive->used, word_read(&executive->used) + steps);
     }
     executive->load.ticks++;
+    has_news = has_news || executive->sim.watch.state != watch_before;
     if (has_news || --executive->until_report == 0u || !executive_wants_tick(executive)) {
         write_report(executive);
     }

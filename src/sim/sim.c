@@ -247,27 +247,25 @@ static void lower_safe_load(struct sim *sim)
     sim->input.load_q27 = fixed_product(sim->safe_load_q27, share, 30u);
 }
 
-bool sim_watch(struct sim *sim, const struct watch_pace *pace)
+void sim_watch(struct sim *sim, const struct watch_pace *pace)
 {
-    const bool was_safe = sim->watch.state == WATCH_SAFE;
-    bool is_new;
+    const uint8_t before = sim->watch.state;
 
     if (sim->fault != SIM_FAULT_NONE) {
-        return false;
+        return;
     }
-    is_new = watch_advance(&sim->watch, &sim->plan->watch, pace);
+    watch_advance(&sim->watch, &sim->plan->watch, pace);
     if (sim->watch.state == WATCH_SAFE) {
-        if (!was_safe) {
+        if (before != WATCH_SAFE) {
             begin_safe_state(sim);
         }
         lower_safe_load(sim);
     }
-    if (is_new) {
+    if (sim->watch.state != before) {
         const struct detector_config config = detector_config_now(sim);
 
         detector_restart(&sim->detector, &config);
     }
-    return is_new;
 }
 
 /* The place inside the step is by a straight line: a diverging plant needs many steps to pass the mark. */

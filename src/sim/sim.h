@@ -87,8 +87,8 @@ void sim_apply(struct sim *sim, const struct sim_plan *plan);
 void sim_input(struct sim *sim, const struct input *input);
 
 /* Asked before each step while a watch is on (sim->watch.state): how old is the controller's demand? In the safe state it
- * lowers the force. Returns true if the state of the watch is a new one. [ISR] */
-bool sim_watch(struct sim *sim, const struct watch_pace *pace);
+ * lowers the force. [ISR] */
+void sim_watch(struct sim *sim, const struct watch_pace *pace);
 
 /* One step: load, plant, domain check, detector, measurement, hash. In a fault it does nothing. Returns true when the
  * detector has a new verdict. [ISR] */

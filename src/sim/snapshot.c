@@ -34,9 +34,10 @@ static void walk_mode(struct walk *walk, int8_t *value)
     *value = byte < 0x80u ? (int8_t)byte : (int8_t)((int)byte - 0x100);
 }
 
+/* A truth value is looked at only where there is one: another byte in its place would be undefined. */
 static void walk_flag(struct walk *walk, bool *value)
 {
-    uint8_t byte = *value ? 1u : 0u;
+    uint8_t byte = walk->writer != NULL && *value ? 1u : 0u;
 
     walk_u8(walk, &byte);
     *value = byte != 0u;
@@ -90,50 +91,46 @@ static void walk_f32(struct walk *walk, float *value)
 
 /* --- The fields ----------------------------------------------------------------------------------------------------- */
 
-static void walk_plant_f32(struct walk *walk, struct step_f32 *plant)
+static void walk_plant_f32(struct walk *walk, struct step_f32 *f32)
 {
-    struct normal_f32 *normal = &plant->normal;
-
-    walk_f32(walk, &plant->x);
-    walk_f32(walk, &plant->v);
-    walk_f32(walk, &plant->x_rest);
-    walk_f32(walk, &plant->disc);
-    walk_mode(walk, &plant->mode);
-    walk_f32(walk, &normal->y);
-    walk_f32(walk, &normal->w);
-    walk_f32(walk, &normal->y_rest);
-    walk_f32(walk, &normal->w_rest);
-    walk_f32(walk, &normal->n);
-    walk_f32(walk, &normal->cosine);
-    walk_f32(walk, &normal->sine);
-    walk_u32(walk, &normal->phase);
-    walk_f32(walk, &normal->least_force);
-    walk_flag(walk, &normal->is_lifted);
-    walk_flag(walk, &normal->is_steady_from_rest);
+    walk_f32(walk, &f32->x);
+    walk_f32(walk, &f32->v);
+    walk_f32(walk, &f32->x_rest);
+    walk_f32(walk, &f32->disc);
+    walk_mode(walk, &f32->mode);
+    walk_f32(walk, &f32->normal.y);
+    walk_f32(walk, &f32->normal.w);
+    walk_f32(walk, &f32->normal.y_rest);
+    walk_f32(walk, &f32->normal.w_rest);
+    walk_f32(walk, &f32->normal.n);
+    walk_f32(walk, &f32->normal.cosine);
+    walk_f32(walk, &f32->normal.sine);
+    walk_u32(walk, &f32->normal.phase);
+    walk_f32(walk, &f32->normal.least_force);
+    walk_flag(walk, &f32->normal.is_lifted);
+    walk_flag(walk, &f32->normal.is_steady_from_rest);
 }
 
-static void walk_plant_q27(struct walk *walk, struct step_q27 *plant)
+static void walk_plant_q27(struct walk *walk, struct step_q27 *q27)
 {
-    struct normal_q27 *normal = &plant->normal;
-
-    walk_i32(walk, &plant->x);
-    walk_i32(walk, &plant->v);
-    walk_i32(walk, &plant->disc);
-    walk_mode(walk, &plant->mode);
-    walk_flag(walk, &plant->is_saturated);
-    walk_u32(walk, &plant->rest.x);
-    walk_u32(walk, &plant->rest.v);
-    walk_i32(walk, &normal->y);
-    walk_i32(walk, &normal->w);
-    walk_i32(walk, &normal->n);
-    walk_i32(walk, &normal->least_force);
-    walk_i32(walk, &normal->reach);
-    walk_i32(walk, &normal->phase.cosine);
-    walk_i32(walk, &normal->phase.sine);
-    walk_i32(walk, &normal->phase.minus_cosine);
-    walk_u32(walk, &normal->phase.index);
-    walk_flag(walk, &normal->is_lifted);
-    walk_flag(walk, &normal->is_steady_from_rest);
+    walk_i32(walk, &q27->x);
+    walk_i32(walk, &q27->v);
+    walk_i32(walk, &q27->disc);
+    walk_mode(walk, &q27->mode);
+    walk_flag(walk, &q27->is_saturated);
+    walk_u32(walk, &q27->rest.x);
+    walk_u32(walk, &q27->rest.v);
+    walk_i32(walk, &q27->normal.y);
+    walk_i32(walk, &q27->normal.w);
+    walk_i32(walk, &q27->normal.n);
+    walk_i32(walk, &q27->normal.least_force);
+    walk_i32(walk, &q27->normal.reach);
+    walk_i32(walk, &q27->normal.phase.cosine);
+    walk_i32(walk, &q27->normal.phase.sine);
+    walk_i32(walk, &q27->normal.phase.minus_cosine);
+    walk_u32(walk, &q27->normal.phase.index);
+    walk_flag(walk, &q27->normal.is_lifted);
+    walk_flag(walk, &q27->normal.is_steady_from_rest);
 }
 
 /* What is left in the plant that is not in use belongs to another run: zeros stand for it. */

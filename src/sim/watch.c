@@ -50,10 +50,8 @@ void watch_follow(struct watch *watch, const struct watch_config *config, bool i
 
 static uint64_t least(uint64_t a, uint64_t b) { return a < b ? a : b; }
 
-bool watch_advance(struct watch *watch, const struct watch_config *config, const struct watch_pace *pace)
+void watch_advance(struct watch *watch, const struct watch_config *config, const struct watch_pace *pace)
 {
-    const uint8_t before = watch->state;
-
     if (watch->state == WATCH_FRESH && watch->silence >= config->stale) {
         watch->state = WATCH_STALE;
         watch->stales++;
@@ -66,7 +64,6 @@ bool watch_advance(struct watch *watch, const struct watch_config *config, const
         watch->ramp = least(watch->ramp + pace->ramp, WATCH_ALL);
     }
     watch->silence = least(watch->silence + pace->time, WATCH_SILENCE_MAX);
-    return watch->state != before;
 }
 
 void watch_pass(struct watch *watch, const struct watch_pace *pace, uint32_t count)

@@ -62,8 +62,8 @@ void watch_hear(struct watch *watch, const struct watch_config *config, bool is_
 /* Another set took hold. A watch that it switches on begins now; one that it switches off ends, but SAFE stays. [ISR] */
 void watch_follow(struct watch *watch, const struct watch_config *config, bool is_held);
 
-/* A step begins: decides its state, then counts it. Returns true if the state is a new one. Not for WATCH_OFF. [ISR] */
-bool watch_advance(struct watch *watch, const struct watch_config *config, const struct watch_pace *pace);
+/* A step begins: decides its state, then counts it. Not for WATCH_OFF. [ISR] */
+void watch_advance(struct watch *watch, const struct watch_config *config, const struct watch_pace *pace);
 
 /* Time that passes without a step: as much as so many of this pace take, at most 2^16 of them. [ISR] */
 void watch_pass(struct watch *watch, const struct watch_pace *pace, uint32_t count);

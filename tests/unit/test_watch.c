@@ -167,7 +167,7 @@ static void check_voided(void)
     run(100u);
     tap_check(now().watch == WATCH_FRESH && executive.sim.watch.stales == 0u,
               "demands ahead of time are a sign of life when they are due");
-    run(1u);
+    run(2u);
     tap_check(now().watch == WATCH_STALE, "and not before");
 }
 
@@ -208,8 +208,8 @@ static void check_ways_out(void)
     (void)demand(4.0f, INPUT_NOW);
     run(6u);
     tap_check(stands(WATCH_SAFE, 0.0f) && executive.sim.watch.stales == 0u, "safe alone comes at once");
-    tap_check(plants_order(&executive, "stale 2 safe 1", false, NULL) == ERROR_OUT_OF_RANGE &&
-                  plants_order(&executive, "stale 2 safe 2", true, NULL) == ERROR_OK,
+    tap_check(plants_order(&executive, "N0 2 N_max 8 stale 2 safe 1", false, NULL) == ERROR_OUT_OF_RANGE &&
+                  plants_order(&executive, "N0 2 N_max 8 stale 2 safe 2", false, NULL) == ERROR_OK,
               "safe does not come before stale");
 }
 
