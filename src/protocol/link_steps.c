@@ -51,10 +51,10 @@ enum link_progress link_stop(struct link *link)
 }
 
 /* Reads a demand whose fields begin at the given one; false if it was refused. */
-static bool read_demand(struct link *link, uint8_t first, struct input_demand *demand)
+static bool read_demand(struct link *link, uint8_t first, bool may_start, struct input_demand *demand)
 {
     const uint8_t byte = bytes_get_u8(&link->arguments);
-    const uint8_t load = first == FIELD_STEP_DEMAND ? byte & (uint8_t)~DEMAND_STARTS : byte;
+    const uint8_t load = may_start ? byte & (uint8_t)~DEMAND_STARTS : byte;
     const uint8_t speed = bytes_get_u8(&link->arguments);
 
     demand->starts = load != byte;
@@ -95,7 +95,7 @@ enum link_progress link_input(struct link *link)
     enum error error;
     bool was_clamped;
 
-    if (!read_demand(link, FIELD_INPUT_DEMAND, &demand)) {
+    if (!read_demand(link, FIELD_INPUT_DEMAND, false, &demand)) {
         return LINK_ANSWERED;
     }
     executive_report(link->executive, &report);
@@ -233,7 +233,7 @@ static enum link_progress begin(struct link *link, const struct executive_report
     if (count == 0u || count > STEPS_MAX) {
         return link_refuse_field(link, FIELD_COUNT, 1.0f, (float)STEPS_MAX);
     }
-    if (!read_demand(link, FIELD_STEP_DEMAND, &demand)) {
+    if (!read_demand(link, FIELD_STEP_DEMAND, true, &demand)) {
         return LINK_ANSWERED;
     }
     steps->was_clamped = false;
