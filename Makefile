@@ -204,6 +204,7 @@ debug: $(IMAGE) ## halt the emulated board at reset and attach gdb; the console 
 check: $(IMAGE) ## check layers, forbidden symbols, documents and the formatting
 	$(Q)tools/check_layers
 	$(Q)tools/check_symbols $(IMAGE)
+	$(Q)tools/check_snapshot
 	$(Q)tools/check_docs
 	$(Q)tools/gen_tables --check
 	$(Q)clang-format --dry-run -Werror $$(git ls-files '*.c' '*.h')

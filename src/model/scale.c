@@ -54,6 +54,9 @@ static struct params_problem check_together(const struct params *params)
     if ((int)params->speed_profile == SPEED_RAMP && params->speed_end_s < params->speed_start_s) {
         return blame(ERROR_OUT_OF_RANGE, "tv2", params->speed_start_s, 1e6f);
     }
+    if (params->safe_s > 0.0f && params->safe_s < params->stale_s) {
+        return blame(ERROR_OUT_OF_RANGE, "safe", params->stale_s, 1e4f);
+    }
     if ((int)params->tangential_method == METHOD_NAIVE && (int)params->normal_method != NORMAL_RK4) {
         return blame(ERROR_NOT_SERVED, "method", 0.0f, 0.0f);
     }
@@ -118,7 +121,7 @@ static uint32_t length_shift(float stiffness)
 {
     uint32_t shift = 0u;
 
-    while (shift < 8u && stiffness * (float)(1u << shift) < 0.25f) {
+    while (shift < SCALE_LENGTH_SHIFT_MAX && stiffness * (float)(1u << shift) < 0.25f) {
         shift++;
     }
     return shift;

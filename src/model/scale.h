@@ -17,10 +17,11 @@
 #include "model/params.h"
 
 /* Limits of what the scaled model holds; MODEL.md has the reasons. */
-#define SCALE_STEP_MAX 0.40f            /* largest z = h max(1, Z, C, Cn) */
-#define SCALE_STIFFNESS_MAX 15.0f       /* largest Z2 */
-#define SCALE_FRICTION_MAX 8.0f         /* largest mu and |eps| */
-#define SCALE_RESERVE 4.0f              /* headroom for live changes where N_max or v_max is not given */
+#define SCALE_STEP_MAX 0.40f      /* largest z = h max(1, Z, C, Cn) */
+#define SCALE_STIFFNESS_MAX 15.0f /* largest Z2 */
+#define SCALE_FRICTION_MAX 8.0f   /* largest mu and |eps| */
+#define SCALE_RESERVE 4.0f        /* headroom for live changes where N_max or v_max is not given */
+#define SCALE_LENGTH_SHIFT_MAX 8u
 #define SCALE_ROUGHNESS_PEAK 1.7320508f /* largest over rms of a uniform distribution: sqrt 3 */
 #define SCALE_FAULT_SPEED 10.0f         /* the plant has left its domain beyond this multiple of max(|v0|, Vref) */
 

@@ -180,12 +180,17 @@ bool console_is_in_fault(const struct console *console)
 static void command_run(struct console *console)
 {
     const struct sim_plan *plan = executive_plan(console->executive);
+    enum error error;
 
     if (console_is_in_fault(console)) {
         console_refuse_fault(console);
         return;
     }
-    executive_free_run(console->executive);
+    error = executive_free_run(console->executive);
+    if (error != ERROR_OK) {
+        console_refuse(console, error, token_first(console->command), error_text(error));
+        return;
+    }
     console_begin_ok(console);
     report_field(console->text, "sigma", plan->params.tick_hz * plan->params.steps_per_tick * plan->scale.step_s);
     console_end(console);

@@ -183,6 +183,17 @@ static void write_notice(struct console *console, const struct sample *now, cons
     text_end_line(console->text);
 }
 
+/* That somebody begins to steer, or ends, is no news; that the demand is too old is, and that it no longer is. What was said
+ * of the propensity is void then. */
+static void tell_input_state(struct console *console, const struct sample *now)
+{
+    if (watch_is_silent(now->watch) || watch_is_silent(console->told.watch)) {
+        console->told.propensity = PROPENSITY_UNKNOWN;
+        write_notice(console, now, "input_state", watch_state_name(now->watch));
+    }
+    console->told.watch = now->watch;
+}
+
 /* One notice a change. That nothing is known yet after a change of the set is no news. */
 static void write_notices(struct console *console)
 {
@@ -198,7 +209,11 @@ static void write_notices(struct console *console)
     if (now->epoch != console->told.epoch) {
         console->told.epoch = now->epoch;
         console->told.propensity = PROPENSITY_UNKNOWN;
+        console->told.watch = WATCH_OFF;
         console->told.is_fault = false;
+    }
+    if (now->watch != console->told.watch) {
+        tell_input_state(console, now);
     }
     if (now->is_fault != 0u && !console->told.is_fault) {
         console->told.is_fault = true;

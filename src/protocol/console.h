@@ -75,7 +75,7 @@ struct console {
 
     struct {              /* what the last notice said, since the last reset */
         uint32_t version; /* of the report that has been looked at */
-        uint8_t epoch, propensity;
+        uint8_t epoch, propensity, watch;
         bool is_fault;
     } told;
 

@@ -27,7 +27,7 @@
 #include "protocol/work.h"
 #include "sim/executive.h"
 
-enum { LINK_REQUEST_MAX = 30 /* bytes of the longest request's payload */ };
+enum { LINK_REQUEST_MAX = 236 /* bytes of the longest request's payload */ };
 
 /* The request being answered. */
 struct link_request {
@@ -46,9 +46,19 @@ struct link_steps {
 
     bool has_last;
     uint32_t resets; /* of the plant, when it was answered */
-    struct link_request last;
+    uint16_t last_sequence;
+    uint32_t last_at; /* the request's step */
+    uint8_t last_payload[LINK_STEP_REQUEST];
     uint32_t last_step; /* in the reply's head */
     uint8_t last_reply[LINK_STEP_REPLY];
+};
+
+/* What the executive's image holds for the link, which goes over in pieces. */
+enum link_image_state { LINK_IMAGE_NONE, LINK_IMAGE_TAKEN, LINK_IMAGE_COMING };
+
+struct link_image {
+    enum link_image_state state;
+    uint16_t next; /* bytes of one that is coming that are here */
 };
 
 struct link_stream {
@@ -81,6 +91,7 @@ struct link {
     struct link_steps steps;
     struct link_stream stream;
     uint16_t study; /* sequence of the request that has begun the study */
+    struct link_image image;
 
     uint32_t refused; /* requests answered with ERROR */
 };

@@ -71,6 +71,7 @@ static uint8_t signal_kind(enum signal_form form)
     case SIGNAL_FORM_COUNT:
     case SIGNAL_FORM_MODE:
     case SIGNAL_FORM_PROPENSITY:
+    case SIGNAL_FORM_WATCH:
         return LINK_WHOLE;
     case SIGNAL_FORM_BITS:
         return LINK_BITS;

@@ -30,10 +30,10 @@ static void put_counters(struct link *link, const struct executive_report *repor
     bytes_put_u32(reply, report->load.ticks);
     bytes_put_u32(reply, report->load.overruns);
     bytes_put_u32(reply, report->load.shed);
-    bytes_put_u32(reply, report->inputs);
-    bytes_put_u32(reply, report->inputs_late);
+    bytes_put_u32(reply, report->counters.inputs);
+    bytes_put_u32(reply, report->counters.inputs_late);
     bytes_put_u32(reply, link->executive->inputs_clamped + report->counters.lowered);
-    bytes_put_u32(reply, link->executive->inputs_refused);
+    bytes_put_u32(reply, link->executive->inputs_refused + report->counters.inputs_void);
 }
 
 /* Offered is the sum of the rest, so that it is exact while the plant runs. */
@@ -62,6 +62,13 @@ static void put_receiver(struct link *link)
     bytes_put_u32(&link->reply, link->refused);
 }
 
+static void put_watch(struct link *link, const struct executive_report *report)
+{
+    bytes_put_u8(&link->reply, report->now.watch);
+    bytes_put_u32(&link->reply, report->stales);
+    bytes_put_u32(&link->reply, report->safes);
+}
+
 enum link_progress link_status(struct link *link)
 {
     struct executive_report report;
@@ -71,5 +78,6 @@ enum link_progress link_status(struct link *link)
     put_counters(link, &report);
     put_samples(link);
     put_receiver(link);
+    put_watch(link, &report);
     return link_answer(link);
 }

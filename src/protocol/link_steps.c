@@ -10,6 +10,8 @@ enum { FIELD_COUNT, FIELD_STEP_DEMAND }; /* of STEP */
 enum { FIELD_AT, FIELD_INPUT_DEMAND };   /* of INPUT; a demand has the four that follow */
 enum { DEMAND_LOAD_KIND, DEMAND_SPEED_KIND, DEMAND_LOAD, DEMAND_SPEED };
 
+enum { DEMAND_STARTS = 0x80 }; /* beside the kind of load of a STEP */
+
 static enum link_progress answer_where(struct link *link)
 {
     struct executive_report report;
@@ -22,6 +24,7 @@ static enum link_progress answer_where(struct link *link)
 enum link_progress link_run(struct link *link)
 {
     struct executive_report report;
+    enum error error;
 
     executive_report(link->executive, &report);
     if (report.now.is_fault != 0u) {
@@ -30,8 +33,8 @@ enum link_progress link_run(struct link *link)
     if (!turn_take(link->turn, TURN_LINK)) {
         return link_refuse_plain(link, ERROR_BUSY);
     }
-    executive_free_run(link->executive);
-    return answer_where(link);
+    error = executive_free_run(link->executive);
+    return error == ERROR_OK ? answer_where(link) : link_refuse_plain(link, error);
 }
 
 enum link_progress link_stop(struct link *link)
@@ -49,11 +52,13 @@ enum link_progress link_stop(struct link *link)
 }
 
 /* Reads a demand whose fields begin at the given one; false if it was refused. */
-static bool read_demand(struct link *link, uint8_t first, struct input_demand *demand)
+static bool read_demand(struct link *link, uint8_t first, bool may_start, struct input_demand *demand)
 {
-    const uint8_t load = bytes_get_u8(&link->arguments);
+    const uint8_t byte = bytes_get_u8(&link->arguments);
+    const uint8_t load = may_start ? byte & (uint8_t)~DEMAND_STARTS : byte;
     const uint8_t speed = bytes_get_u8(&link->arguments);
 
+    demand->starts = load != byte;
     demand->load = (enum input_load)load;
     demand->speed = (enum input_speed)speed;
     demand->load_value = bytes_get_f32(&link->arguments);
@@ -88,9 +93,10 @@ enum link_progress link_input(struct link *link)
 {
     struct input_demand demand = {.step = bytes_get_u64(&link->arguments)};
     struct executive_report report;
+    enum error error;
     bool was_clamped;
 
-    if (!read_demand(link, FIELD_INPUT_DEMAND, &demand)) {
+    if (!read_demand(link, FIELD_INPUT_DEMAND, false, &demand)) {
         return LINK_ANSWERED;
     }
     executive_report(link->executive, &report);
@@ -100,8 +106,9 @@ enum link_progress link_input(struct link *link)
     if (report.now.is_fault != 0u) {
         return link_refuse_plain(link, ERROR_IN_FAULT);
     }
-    if (!executive_input(link->executive, &demand, &was_clamped)) {
-        return link_refuse_plain(link, ERROR_BUSY);
+    error = executive_input(link->executive, &demand, &was_clamped);
+    if (error != ERROR_OK) {
+        return link_refuse_plain(link, error);
     }
     bytes_put_u8(&link->reply, was_clamped ? 1u : 0u);
     return link_answer(link);
@@ -117,10 +124,10 @@ static bool has_last(const struct link *link)
 static bool is_repeated(const struct link *link)
 {
     const struct link_request *now = &link->request;
-    const struct link_request *last = &link->steps.last;
+    const struct link_steps *steps = &link->steps;
 
-    return has_last(link) && now->sequence == last->sequence && now->step == last->step &&
-           memcmp(now->payload, last->payload, now->size) == 0;
+    return has_last(link) && now->sequence == steps->last_sequence && now->step == steps->last_at &&
+           memcmp(now->payload, steps->last_payload, sizeof steps->last_payload) == 0;
 }
 
 static enum link_progress answer_again(struct link *link)
@@ -140,6 +147,9 @@ static enum link_progress answer_step(struct link *link, const struct executive_
     const struct sample *now = &report->now;
     const bool is_fault = now->is_fault != 0u;
     const bool is_cut = !is_fault && now->step != steps->target;
+    const int flags = (is_fault ? LINK_IS_FAULT : 0) | (steps->was_clamped ? LINK_WAS_CLAMPED : 0) |
+                      (is_cut ? LINK_WAS_CUT : 0) | (now->watch == WATCH_STALE ? LINK_IS_STALE : 0) |
+                      (now->watch == WATCH_SAFE ? LINK_IS_SAFE : 0);
 
     bytes_put_u64(&link->reply, now->step);
     bytes_put_u32(&link->reply, now->hash);
@@ -154,11 +164,12 @@ static enum link_progress answer_step(struct link *link, const struct executive_
     bytes_put_u8(&link->reply, now->propensity);
     bytes_put_u8(&link->reply, report->verdict.motion);
     bytes_put_u8(&link->reply, report->verdict.period);
-    bytes_put_u8(&link->reply, (uint8_t)((is_fault ? LINK_IS_FAULT : 0) | (steps->was_clamped ? LINK_WAS_CLAMPED : 0) |
-                                         (is_cut ? LINK_WAS_CUT : 0)));
+    bytes_put_u8(&link->reply, (uint8_t)flags);
     steps->has_last = true;
     steps->resets = link->executive->resets;
-    steps->last = link->request;
+    steps->last_sequence = link->request.sequence;
+    steps->last_at = link->request.step;
+    memcpy(steps->last_payload, link->request.payload, LINK_STEP_REQUEST);
     steps->last_step = (uint32_t)now->step;
     memcpy(steps->last_reply, link->reply_bytes, LINK_STEP_REPLY);
     return link_answer_from(link, steps->last_step);
@@ -203,8 +214,7 @@ static enum link_progress go_on(struct link *link)
     return answer_step(link, &report);
 }
 
-/* May the plant be stepped from here? ERROR_OK, or why not. */
-static enum error find_obstacle(struct link *link, const struct executive_report *report)
+enum error link_find_obstacle(struct link *link, const struct executive_report *report)
 {
     if (report->now.is_fault != 0u) {
         return ERROR_IN_FAULT;
@@ -220,17 +230,21 @@ static enum link_progress begin(struct link *link, const struct executive_report
     struct link_steps *steps = &link->steps;
     const uint32_t count = bytes_get_u32(&link->arguments);
     struct input_demand demand = {.step = INPUT_NOW};
+    enum error error = ERROR_OK;
 
     if (count == 0u || count > STEPS_MAX) {
         return link_refuse_field(link, FIELD_COUNT, 1.0f, (float)STEPS_MAX);
     }
-    if (!read_demand(link, FIELD_STEP_DEMAND, &demand)) {
+    if (!read_demand(link, FIELD_STEP_DEMAND, true, &demand)) {
         return LINK_ANSWERED;
     }
     steps->was_clamped = false;
     steps->was_cut = false;
-    if (!is_idle_demand(&demand) && !executive_input(link->executive, &demand, &steps->was_clamped)) {
-        return link_refuse_plain(link, ERROR_BUSY);
+    if (demand.starts || !is_idle_demand(&demand)) {
+        error = executive_input(link->executive, &demand, &steps->was_clamped);
+    }
+    if (error != ERROR_OK) {
+        return link_refuse_plain(link, error);
     }
     steps->reached = report->now.step;
     steps->target = report->now.step + count;
@@ -241,7 +255,7 @@ static enum link_progress begin(struct link *link, const struct executive_report
 
 enum link_progress link_step(struct link *link)
 {
-    const uint16_t next = (uint16_t)(link->steps.last.sequence + 1u);
+    const uint16_t next = (uint16_t)(link->steps.last_sequence + 1u);
     struct executive_report report;
     enum error obstacle;
 
@@ -255,7 +269,7 @@ enum link_progress link_step(struct link *link)
         return link_refuse(link, &(struct link_refusal){.error = ERROR_BAD_SEQUENCE, .expected = next});
     }
     executive_report(link->executive, &report);
-    obstacle = find_obstacle(link, &report);
+    obstacle = link_find_obstacle(link, &report);
     if (obstacle != ERROR_OK) {
         return link_refuse_plain(link, obstacle);
     }

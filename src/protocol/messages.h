@@ -13,7 +13,9 @@ enum {
     LINK_STUDY_END = 0x43,
     LINK_ERROR_SIZE = 15, /* bytes of its payload */
     LINK_NO_INDEX = 255,  /* nothing to blame; no second axis of SCAN; all parameters of MARGIN */
-    LINK_STEP_REPLY = 45
+    LINK_STEP_REQUEST = 14,
+    LINK_STEP_REPLY = 45,
+    LINK_PIECE = 232 /* bytes of a run that go over at a time */
 };
 
 enum link_message {
@@ -36,7 +38,7 @@ enum { LINK_SYMBOL_WIDTH = 24, LINK_UNIT_WIDTH = 48, LINK_HELP_WIDTH = 149 };
 enum link_place { LINK_IN_FORCE, LINK_STAGED, LINK_NOW, LINK_PLACE_COUNT };
 
 /* Of STEP's reply. */
-enum { LINK_IS_FAULT = 1, LINK_WAS_CLAMPED = 2, LINK_WAS_CUT = 4 };
+enum { LINK_IS_FAULT = 1, LINK_WAS_CLAMPED = 2, LINK_WAS_CUT = 4, LINK_IS_STALE = 8, LINK_IS_SAFE = 16 };
 
 /* Of VERDICT's reply. */
 enum { LINK_IS_AUDIBLE = 1, LINK_IS_BISTABLE = 2 };

@@ -7,6 +7,7 @@
 #include "model/plant.h"
 #include "protocol/token.h"
 #include "sim/detector.h"
+#include "sim/watch.h"
 
 const struct signal_info signals_table[SIGNAL_COUNT] = {
 #define SIGNAL(id, field, name, unit, width, form, value, help) [id] = {#name, unit, help, width, SIGNAL_FORM_##form},
@@ -78,6 +79,12 @@ static void append_PROPENSITY(struct text *text, const struct scale *scale, uint
     text_write(text, detector_propensity_name(value));
 }
 
+static void append_WATCH(struct text *text, const struct scale *scale, uint8_t value)
+{
+    (void)scale;
+    text_write(text, watch_state_name(value));
+}
+
 static void append_BITS(struct text *text, const struct scale *scale, uint32_t value)
 {
     (void)scale;
@@ -119,6 +126,8 @@ static uint32_t word_REAL(const struct scale *scale, float value)
 static uint32_t word_MODE(const struct scale *scale, int value) { return word_REAL(scale, (float)value); }
 
 static uint32_t word_PROPENSITY(const struct scale *scale, uint8_t value) { return word_REAL(scale, (float)value); }
+
+static uint32_t word_WATCH(const struct scale *scale, uint8_t value) { return word_REAL(scale, (float)value); }
 
 static uint32_t word_BITS(const struct scale *scale, uint32_t value)
 {

@@ -60,10 +60,13 @@ static void write_counters(struct text *text, const struct console *console, con
     text_key_u64(text, "events", counters->events);
     text_key_u64(text, "lifted", counters->lifted);
     text_key_u64(text, "gap_held", counters->gap_held);
-    text_key_u64(text, "inputs", report->inputs);
-    text_key_u64(text, "inputs_late", report->inputs_late);
+    text_key_u64(text, "inputs", report->counters.inputs);
+    text_key_u64(text, "inputs_late", report->counters.inputs_late);
     text_key_u64(text, "inputs_clamped", console->executive->inputs_clamped + counters->lowered);
-    text_key_u64(text, "inputs_refused", console->executive->inputs_refused);
+    text_key_u64(text, "inputs_refused", console->executive->inputs_refused + report->counters.inputs_void);
+    text_key_text(text, "input_state", watch_state_name(report->now.watch));
+    text_key_u64(text, "times_stale", report->stales);
+    text_key_u64(text, "times_safe", report->safes);
     text_key_u64(text, "rejected", console->rejected);
     text_key_u64(text, "garbage", console->line.garbage);
     text_key_u64(text, "uart_lost", console->uart_lost);

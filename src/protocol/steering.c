@@ -79,6 +79,7 @@ static bool read_demand(struct console *console, struct input_demand *demand)
 void steering_obey(struct console *console)
 {
     struct input_demand demand = {.load = INPUT_LOAD_KEEP};
+    enum error error;
     bool is_clamped;
 
     if (console_is_in_fault(console)) {
@@ -88,8 +89,9 @@ void steering_obey(struct console *console)
     if (!read_demand(console, &demand)) {
         return;
     }
-    if (!executive_input(console->executive, &demand, &is_clamped)) {
-        console_refuse(console, ERROR_BUSY, token_first(console->command), error_text(ERROR_BUSY));
+    error = executive_input(console->executive, &demand, &is_clamped);
+    if (error != ERROR_OK) {
+        console_refuse(console, error, token_first(console->command), error_text(error));
         return;
     }
     console_begin_ok(console);

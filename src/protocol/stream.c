@@ -259,7 +259,8 @@ static void write_series(struct text *text, enum signal signal, const struct sam
     write_ms(text, sample, scale);
     text_put(text, ':');
     signals_append(text, signal, sample, scale);
-    if (info->form == SIGNAL_FORM_MODE || info->form == SIGNAL_FORM_PROPENSITY || info->form == SIGNAL_FORM_BITS) {
+    if (info->form == SIGNAL_FORM_MODE || info->form == SIGNAL_FORM_PROPENSITY || info->form == SIGNAL_FORM_WATCH ||
+        info->form == SIGNAL_FORM_BITS) {
         text_write(text, "|t");
     } else if (has_unit(info)) {
         text_write(text, "\xc2\xa7");

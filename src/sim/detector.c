@@ -227,6 +227,15 @@ bool detector_push(struct detector *detector, const struct plant_output *output)
     return is_new;
 }
 
+bool detector_skip(struct detector *detector, const struct plant_output *output)
+{
+    detector->x1 = output->x;
+    detector->v1 = output->v;
+    detector->verdict.disc = output->disc;
+    detector->step++;
+    return false;
+}
+
 const char *detector_propensity_name(uint8_t propensity)
 {
     static const char *const names[] = {"unknown", "quiet", "watch", "squeal"};

@@ -125,6 +125,11 @@ void detector_restart(struct detector *detector, const struct detector_config *c
  * while a search is under way, 16 with 16 steps a period. [ISR] */
 bool detector_push(struct detector *detector, const struct plant_output *output);
 
+/* A step that must not count, since nobody knows what it answers to: only where the plant stands is noted. After a restart
+ * the verdict stays unknown over such steps, however many, and its window begins with the first that counts again. Returns
+ * false. [ISR] */
+bool detector_skip(struct detector *detector, const struct plant_output *output);
+
 /* The plant left its domain: squeal, diverging, until reset. [ISR] */
 void detector_set_diverged(struct detector *detector);
 

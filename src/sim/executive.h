@@ -15,10 +15,12 @@
 #include <stdbool.h>
 #include <stdint.h>
 
+#include "base/errors.h"
 #include "base/handoff.h"
 #include "base/ring.h"
 #include "base/word.h"
 #include "sim/sim.h"
+#include "sim/snapshot.h"
 
 enum {
     EXECUTIVE_SAMPLES = 512,         /* records between interrupt and main */
@@ -30,6 +32,8 @@ enum {
 struct executive_order {
     struct sim_plan plan;
     bool is_reset;          /* start again from the plan's initial state; else take it over between two steps */
+    bool is_restore;        /* of a reset: from the state in the image instead */
+    bool is_snapshot;       /* take the state into the image */
     bool is_new_plan;       /* the plan differs from the one in use */
     uint64_t measure_steps; /* start a measurement; 0 none */
     uint32_t sample_every;  /* steps between samples; 0 none */
@@ -60,7 +64,7 @@ struct executive_report {
     uint32_t v10_fraction_q15;
     uint32_t generation; /* of the order in force */
     struct input_state input;
-    uint32_t inputs, inputs_late; /* demands taken since reset, and those of them whose step was past */
+    uint32_t stales, safes; /* times since reset that a controller was silent for too long */
 };
 
 struct executive {
@@ -70,7 +74,6 @@ struct executive {
     uint32_t until_sample, until_report; /* interrupt */
     uint32_t to_shed;                    /* interrupt: ticks to skip after an overrun */
     struct input_queue inputs_waiting;   /* interrupt: out of the ring, their steps not reached */
-    uint32_t inputs_taken, inputs_late;  /* interrupt */
 
     struct executive_order orders[2]; /* handed over by publish */
     struct publish publish;
@@ -80,6 +83,7 @@ struct executive {
     struct ring samples;
     struct input input_store[EXECUTIVE_INPUTS];
     struct ring inputs;
+    uint8_t image[SNAPSHOT_SIZE]; /* whose it is: main's, but for the one that an order waits to be made of or into */
 
     /* single words, one writer each */
     struct word granted;       /* main: steps granted so far */
@@ -124,14 +128,23 @@ void executive_stream(struct executive *executive, uint32_t every);
 /* Orders a measurement over n steps from here, without granting them. [MAIN] */
 void executive_measure(struct executive *executive, uint64_t steps);
 
-/* Hands over a controller's demand, to be taken before its step, in whatever order; up to INPUT_QUEUE_MAX wait. A reset voids
- * what waits, and the profiles act again. False if there is no place: nothing is handed over then, and it is counted.
- * *is_clamped (may be NULL) tells whether a limit held it. [MAIN] */
-bool executive_input(struct executive *executive, const struct input_demand *demand, bool *is_clamped);
+/* Orders a copy of the run into executive->image, which is main's again once the order is taken. The plant must stand, and
+ * not in a fault; anything that shall not be in it must have been waited for. [MAIN] */
+void executive_snapshot(struct executive *executive);
 
-/* Credit: n more steps (at most EXECUTIVE_GRANT_MAX outstanding), endless, or none any more. [MAIN] */
+/* Checks the image, and orders a reset to the run in it. What may be wrong is snapshot_check()'s to say; then nothing
+ * changes. [MAIN] */
+struct params_problem executive_restore(struct executive *executive);
+
+/* Hands over a controller's demand, to be taken before its step, in whatever order; up to INPUT_QUEUE_MAX wait. A reset voids
+ * what waits, and the profiles act again. BUSY if there is no place, SAFE_STATE where an explicit start must come first:
+ * nothing is handed over then, and it is counted. *is_clamped (may be NULL) tells whether a limit held it. [MAIN] */
+enum error executive_input(struct executive *executive, const struct input_demand *demand, bool *is_clamped);
+
+/* Credit: n more steps (at most EXECUTIVE_GRANT_MAX outstanding), endless, or none any more. A free run is an explicit start,
+ * and leaves the safe state, by an order; BUSY if there is no place for that. [MAIN] */
 void executive_grant(struct executive *executive, uint32_t steps);
-void executive_free_run(struct executive *executive);
+enum error executive_free_run(struct executive *executive);
 void executive_stop(struct executive *executive);
 
 /* Takes the credit back by an order that changes nothing: once it is taken, the report tells where the plant stands. [MAIN] */

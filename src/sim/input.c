@@ -21,7 +21,7 @@ bool input_derive(struct input *input, const struct input_demand *demand, const 
     const float ratio = demand->speed == INPUT_SPEED_VEHICLE ? params->radius_m / params->tyre_radius_m : 1.0f;
     bool is_clamped = false;
 
-    *input = (struct input){.step = demand->step};
+    *input = (struct input){.step = demand->step, .starts = demand->starts};
     input->sets_load = demand->load != INPUT_LOAD_KEEP;
     input->holds_load = demand->load == INPUT_LOAD_FORCE || demand->load == INPUT_LOAD_PRESSURE;
     input->sets_speed = demand->speed != INPUT_SPEED_KEEP;

@@ -36,13 +36,14 @@ struct input_demand {
     enum input_speed speed;
     float load_value, speed_value; /* in the unit of their kind; meaningless for KEEP and PROFILE */
     uint64_t step;                 /* index of the first step that it is held over; INPUT_NOW: of the next one */
+    bool starts;                   /* leaves the safe state, in which any other demand is refused */
 };
 
 /* The same for the interrupt; values in the model's units, in either arithmetic. */
 struct input {
     uint64_t step;
     uint8_t epoch; /* of the reset that it belongs to: a reset voids it */
-    bool sets_load, sets_speed;
+    bool starts, sets_load, sets_speed;
     bool holds_load, holds_speed; /* meaningful if it sets them; false: back to the profile */
     float load, speed;
     int32_t load_q27, speed_q27;

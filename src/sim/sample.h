@@ -20,6 +20,7 @@ struct sample {
     uint8_t propensity; /* enum detector_propensity */
     uint8_t is_fault;   /* the plant is frozen */
     uint8_t epoch;      /* which reset it belongs to, modulo 256 */
+    uint8_t watch;      /* enum watch_state */
     uint16_t number;    /* in the order in which they were made, dropped ones counted, modulo 65536 */
 };
 

@@ -43,6 +43,7 @@ struct params_problem sim_plan_make(struct sim_plan *plan, const struct params *
     texture_derive(&plan->texture, params, &plan->scale);
     plan->load_limit = 1.0f / scale_peak_factor(params);
     plan->load_limit_q27 = to_q27(plan->load_limit);
+    watch_configure(&plan->watch, params, &plan->scale);
     plan->detector = detector_config(params, &plan->scale);
     plan->prediction = predictor_predict(params, &plan->scale);
     return problem;
@@ -162,6 +163,9 @@ void sim_reset(struct sim *sim, const struct sim_plan *plan)
     sim->angle = (struct texture_angle){0};
     sim->texture = 0;
     sim->input = (struct input_state){0};
+    sim->watch = (struct watch){0};
+    sim->safe_load = 0.0f;
+    sim->safe_load_q27 = 0;
     reset_plant(sim);
     detector_reset(&sim->detector, &plan->detector, &sim->output);
 }
@@ -178,6 +182,14 @@ static struct detector_config detector_config_now(const struct sim *sim)
     return config;
 }
 
+static void lower(float *load, int32_t *load_q27, const struct sim_plan *plan)
+{
+    *load = plan->load_limit;
+    *load_q27 = plan->load_limit_q27;
+}
+
+static bool is_held(const struct sim *sim) { return sim->input.holds_load || sim->input.holds_speed; }
+
 void sim_apply(struct sim *sim, const struct sim_plan *plan)
 {
     struct detector_config config;
@@ -185,17 +197,75 @@ void sim_apply(struct sim *sim, const struct sim_plan *plan)
     sim->plan = plan;
     config = detector_config_now(sim);
     if (sim->input.holds_load && sim->input.load > plan->load_limit) {
-        sim->input.load = plan->load_limit;
-        sim->input.load_q27 = plan->load_limit_q27;
+        lower(&sim->input.load, &sim->input.load_q27, plan);
         sim->counters.lowered++;
     }
+    if (sim->safe_load > plan->load_limit) {
+        lower(&sim->safe_load, &sim->safe_load_q27, plan);
+    }
+    watch_follow(&sim->watch, &plan->watch, is_held(sim));
     detector_restart(&sim->detector, &config);
 }
 
 void sim_input(struct sim *sim, const struct input *input)
 {
+    const bool is_demand = input->sets_load || input->sets_speed;
+    const bool is_safe = sim->watch.state == WATCH_SAFE;
+
+    if (is_safe && !input->starts) {
+        sim->counters.inputs_void++;
+        return;
+    }
+    sim->counters.inputs += is_demand ? 1u : 0u;
+    sim->counters.inputs_late += is_demand && input->step != INPUT_NOW && input->step < sim->step ? 1u : 0u;
     input_take(&sim->input, input);
+    if (is_safe || is_demand) {
+        watch_hear(&sim->watch, &sim->plan->watch, is_held(sim));
+    }
     sim->detector.config = detector_config_now(sim);
+}
+
+/* From here on the force that acts, the controller's or the profile's, is on its way to 0. */
+static void begin_safe_state(struct sim *sim)
+{
+    struct input_state *input = &sim->input;
+
+    if (!input->holds_load) {
+        input->holds_load = true;
+        input->load = profile_value(&sim->plan->load, sim->step);
+        input->load_q27 = profile_q27_value(&sim->plan->load_q27, sim->step);
+    }
+    sim->safe_load = input->load;
+    sim->safe_load_q27 = input->load_q27;
+}
+
+static void lower_safe_load(struct sim *sim)
+{
+    const int32_t share = watch_share_q30(&sim->watch);
+
+    sim->input.load = sim->safe_load * ((float)share * (1.0f / 1073741824.0f));
+    sim->input.load_q27 = fixed_product(sim->safe_load_q27, share, 30u);
+}
+
+void sim_watch(struct sim *sim, const struct watch_pace *pace)
+{
+    const uint8_t before = sim->watch.state;
+
+    if (sim->fault != SIM_FAULT_NONE) {
+        return;
+    }
+    watch_advance(&sim->watch, &sim->plan->watch, pace);
+    if (sim->watch.state == WATCH_SAFE) {
+        if (before != WATCH_SAFE) {
+            begin_safe_state(sim);
+        }
+        lower_safe_load(sim);
+    }
+    if (sim->watch.state != before) {
+        const struct detector_config config = detector_config_now(sim);
+
+        detector_restart(&sim->detector, &config);
+    }
 }
 
 /* The place inside the step is by a straight line: a diverging plant needs many steps to pass the mark. */
@@ -257,7 +327,8 @@ bool sim_step_unhashed(struct sim *sim)
     if (sim->plan->texture.runout != 0) {
         texture_turn(&sim->plan->texture, &sim->angle, sim->output.disc);
     }
-    has_verdict = detector_push(&sim->detector, &sim->output);
+    has_verdict = !watch_is_silent(sim->watch.state) ? detector_push(&sim->detector, &sim->output)
+                                                     : detector_skip(&sim->detector, &sim->output);
     measure_push(&sim->measure, &sim->output);
     return has_verdict;
 }
@@ -270,6 +341,12 @@ bool sim_step(struct sim *sim)
         sim->hash = hash_state(sim);
     }
     return has_verdict;
+}
+
+void sim_resume(struct sim *sim, const struct sim_plan *plan)
+{
+    sim->plan = plan;
+    sim->detector.config = detector_config_now(sim);
 }
 
 void sim_measure(struct sim *sim, uint64_t steps)
@@ -292,5 +369,6 @@ void sim_sample(const struct sim *sim, struct sample *sample)
     sample->arithmetic = sim->plan->arithmetic;
     sample->propensity = sim->detector.verdict.propensity;
     sample->is_fault = sim->fault != SIM_FAULT_NONE;
+    sample->watch = sim->watch.state;
     sample->hash = sim->hash;
 }

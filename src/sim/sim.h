@@ -17,6 +17,7 @@
 #include "sim/profile.h"
 #include "sim/sample.h"
 #include "sim/texture.h"
+#include "sim/watch.h"
 
 /* A set with everything derived from it, made in main and handed to the interrupt as a whole. */
 struct sim_plan {
@@ -30,6 +31,7 @@ struct sim_plan {
     struct texture texture;
     float load_limit; /* of a force held by a controller, under this texture */
     int32_t load_limit_q27;
+    struct watch_config watch;
     struct detector_config detector;
     struct prediction prediction;
 };
@@ -45,6 +47,9 @@ struct sim_counters {
     uint32_t lifted;      /* steps with lost contact, y < 0 */
     uint32_t gap_held;    /* steps in which the gap was held at its limit */
     uint32_t lowered;     /* times that a new set lowered a held force to its limit */
+    uint32_t inputs;      /* demands of a controller taken, */
+    uint32_t inputs_late; /* those of them whose step was past, */
+    uint32_t inputs_void; /* and those not taken because of the safe state */
 };
 
 enum sim_fault { SIM_FAULT_NONE, SIM_FAULT_DOMAIN };
@@ -54,7 +59,10 @@ struct sim {
     struct step_f32 f32; /* one of the two, as the plan says */
     struct step_q27 q27;
     struct plant_output output;
-    struct input_state input;   /* of a controller, in place of the profiles */
+    struct input_state input; /* of a controller, in place of the profiles */
+    struct watch watch;       /* over the controller */
+    float safe_load;          /* force with which the safe state began */
+    int32_t safe_load_q27;
     struct texture_angle angle; /* of the disc; counted from reset, while there is run-out */
     int32_t texture;            /* that acts on the load */
     struct detector detector;
@@ -62,8 +70,8 @@ struct sim {
     struct sim_counters counters;
     uint64_t step;
     uint32_t hash; /* of every state since reset, but the disc's angle: what that does is in y one step later */
-    enum sim_fault fault;
-    bool has_v10; /* |v| has passed ten times the disc's speed: first time, in steps and 2^-15 steps */
+    uint8_t fault; /* enum sim_fault */
+    bool has_v10;  /* |v| has passed ten times the disc's speed: first time, in steps and 2^-15 steps */
     uint64_t v10_step;
     uint32_t v10_fraction_q15;
 };
@@ -74,8 +82,13 @@ void sim_reset(struct sim *sim, const struct sim_plan *plan);
 /* A new set takes hold between two steps; state and units are kept. [ISR] */
 void sim_apply(struct sim *sim, const struct sim_plan *plan);
 
-/* A controller's demand takes hold with the next step. [ISR] */
+/* A controller's demand takes hold with the next step. In the safe state only one that starts does; any other is void, and
+ * counted. [ISR] */
 void sim_input(struct sim *sim, const struct input *input);
+
+/* Asked before each step while a watch is on (sim->watch.state): how old is the controller's demand? In the safe state it
+ * lowers the force. [ISR] */
+void sim_watch(struct sim *sim, const struct watch_pace *pace);
 
 /* One step: load, plant, domain check, detector, measurement, hash. In a fault it does nothing. Returns true when the
  * detector has a new verdict. [ISR] */
@@ -86,6 +99,9 @@ bool sim_step_unhashed(struct sim *sim);
 
 /* Starts a measurement over the given number of steps from here. [ISR] */
 void sim_measure(struct sim *sim, uint64_t steps);
+
+/* All but the plan has been put back as it stood under this plan once. [ISR] */
+void sim_resume(struct sim *sim, const struct sim_plan *plan);
 
 /* The present state as a record for main. [ISR] */
 void sim_sample(const struct sim *sim, struct sample *sample);

@@ -22,10 +22,10 @@ static struct input derive(const struct input_demand *demand, bool *is_clamped)
 
 static void check_units(void)
 {
-    const struct input_demand direct = {INPUT_LOAD_FORCE, INPUT_SPEED_DISC, 3000.0f, 0.5f, 7u};
-    const struct input_demand engineer = {INPUT_LOAD_PRESSURE, INPUT_SPEED_VEHICLE, 1e6f, 3.1f, 7u};
-    const struct input_demand large = {INPUT_LOAD_FORCE, INPUT_SPEED_DISC, 13000.0f, -2.5f, 7u};
-    const struct input_demand negative = {INPUT_LOAD_FORCE, INPUT_SPEED_KEEP, -1.0f, 0.0f, 7u};
+    const struct input_demand direct = {INPUT_LOAD_FORCE, INPUT_SPEED_DISC, 3000.0f, 0.5f, 7u, false};
+    const struct input_demand engineer = {INPUT_LOAD_PRESSURE, INPUT_SPEED_VEHICLE, 1e6f, 3.1f, 7u, false};
+    const struct input_demand large = {INPUT_LOAD_FORCE, INPUT_SPEED_DISC, 13000.0f, -2.5f, 7u, false};
+    const struct input_demand negative = {INPUT_LOAD_FORCE, INPUT_SPEED_KEEP, -1.0f, 0.0f, 7u, false};
     bool is_clamped;
     struct input input = derive(&direct, &is_clamped);
 
@@ -46,7 +46,7 @@ static bool demand(float newton, uint64_t step)
 {
     const struct input_demand wanted = {.load = INPUT_LOAD_FORCE, .load_value = newton, .step = step};
 
-    return executive_input(&executive, &wanted, NULL);
+    return executive_input(&executive, &wanted, NULL) == ERROR_OK;
 }
 
 static void run(uint32_t steps)
@@ -72,7 +72,7 @@ static void check_steps(void)
     tap_check(demand(5.0f, 3u) && demand(6.0f, INPUT_NOW), "one that is late, one for now");
     run(1u);
     tap_check_close(load_newton(), 6.0f, 0.0f, "are taken at once, in the order in which they came");
-    tap_check(executive.inputs_taken == 4u && executive.inputs_late == 1u, "and counted");
+    tap_check(executive.sim.counters.inputs == 4u && executive.sim.counters.inputs_late == 1u, "and counted");
     (void)demand(7.0f, 1000u);
     (void)plants_order(&executive, "N0 2 N_max 8 spp 128", true, NULL);
     plants_ticks(&executive, 1u);
@@ -96,7 +96,8 @@ static void check_full(void)
     run(1u);
     tap_check_close(load_newton(), 5.0f, 0.0f, "which is taken at once");
     run(1100u);
-    tap_check(executive.inputs_taken == taken + 1u && executive.inputs_late == 0u, "none of all is lost");
+    tap_check(executive.sim.counters.inputs == taken + 1u && executive.sim.counters.inputs_late == 0u,
+              "none of all is lost");
     tap_check(demand(6.0f, 5000u) && demand(7.0f, 5000u), "two for the same step");
     run(5000u - (uint32_t)executive.sim.step + 1u);
     tap_check_close(load_newton(), 7.0f, 0.0f, "the later one holds");
@@ -109,13 +110,14 @@ static void check_reset(void)
     run(3u);
     (void)demand(4.0f, 1u);
     run(1u);
-    tap_check(executive.inputs_late == 1u, "one late");
+    tap_check(executive.sim.counters.inputs_late == 1u, "one late");
     (void)demand(5.0f, 50u);
     run(1u);
     (void)demand(6.0f, INPUT_NOW);
     (void)plants_order(&executive, "N0 2 N_max 8 spp 128", true, NULL);
     executive_tick(&executive, false);
-    tap_check(executive.inputs_late == 0u && executive.inputs_taken == 0u && executive.inputs_waiting.count == 0u,
+    tap_check(executive.sim.counters.inputs_late == 0u && executive.sim.counters.inputs == 0u &&
+                  executive.inputs_waiting.count == 0u,
               "a reset begins the count anew");
     run(100u);
     tap_check_close(load_newton(), 2.0f, 0.0f, "and voids what waited and what was on its way");

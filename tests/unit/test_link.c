@@ -181,7 +181,10 @@ static void check_status(void)
     (void)bytes_get_block(&answer, 10u * 4u);
     tap_check(bytes_get_u32(&answer) == bench.link.receiver.accepted, "those of the receiver too");
     (void)bytes_get_block(&answer, 6u * 4u);
-    tap_check(bytes_get_u32(&answer) == bench.link.refused && bytes_is_spent(&answer), "and the refusals");
+    tap_check(bytes_get_u32(&answer) == bench.link.refused, "and the refusals");
+    tap_check(bytes_get_u8(&answer) == WATCH_OFF && bytes_get_u32(&answer) == 0u && bytes_get_u32(&answer) == 0u &&
+                  bytes_is_spent(&answer),
+              "and nobody steers");
 }
 
 /* --- Settings ----------------------------------------------------------------------------------------------------- */
@@ -221,7 +224,7 @@ static void check_settings(void)
 
     bench_open();
     crc = revert();
-    tap_check(crc == 211542401u, "the CRC of the defaults is that of a program of its own");
+    tap_check(crc == 0xb973198du, "the CRC of the defaults is that of a program of its own");
     tap_check(stage(n0, 2.0f) != crc && params_value(executive_params(&bench.executive), &params_table[n0]) == 1.0f,
               "staged is not in force");
     tap_check(is_committed(stage(n0, 2.0f), 0u, 1u) && executive_params(&bench.executive)->load_n == 2.0f,

@@ -4,6 +4,8 @@
 #include "base/fmath.h"
 #include "bench.h"
 #include "model/params.h"
+#include "sim/watch.h"
+#include "sim/watch.h"
 #include "tap.h"
 #include "tests.h"
 
@@ -45,13 +47,14 @@ static const struct sample sample = {.step = 10u,
                                      .friction = 0xc0e00000u, /* -7 */
                                      .mode = -1,
                                      .propensity = PROPENSITY_SQUEAL,
+                                     .watch = WATCH_SAFE,
                                      .hash = 0xbeefu};
 
 static void check_values(void)
 {
-    static const char *const expected[SIGNAL_COUNT] = {"10",     "2.5", "5",   "6",          "-33",
-                                                       "88",     "35",  "-91", "12",         "slip-",
-                                                       "squeal", "18",  "-21", "4.33333349", "0000beef"};
+    static const char *const expected[SIGNAL_COUNT] = {"10",  "2.5",        "5",        "6",     "-33",    "88",
+                                                       "35",  "-91",        "12",       "slip-", "squeal", "18",
+                                                       "-21", "4.33333349", "0000beef", "safe"};
 
     struct scale no_pull = scale;
     struct scale lift = scale;
@@ -141,6 +144,7 @@ static void check_widths(void)
                              .friction = tap_random(&random),
                              .mode = (int8_t)(i % 3u) - 1,
                              .propensity = (uint8_t)(i % 4u),
+                             .watch = (uint8_t)(i / 4u % 4u),
                              .hash = tap_random(&random)};
         static const struct scale units = {.omega_rad_per_s = 1.0f,
                                            .speed_m_per_s = 1.0f,

@@ -1,0 +1,223 @@
+/* The interrupt's side of the executive: orders taken, demands taken, steps made, all of it reported. */
+#include "sim/executive.h"
+
+enum {
+    TICKS_PER_REPORT = 32, /* of a free run without news */
+    MAIN_SHARE = 16        /* a tick that leaves main less than this part of its period counts as overrun */
+};
+
+static void write_report(struct executive *executive)
+{
+    const struct sim *sim = &executive->sim;
+    struct executive_report report;
+
+    sim_sample(sim, &report.now);
+    report.now.epoch = executive->in_force.epoch;
+    report.counters = sim->counters;
+    report.verdict = sim->detector.verdict;
+    report.measure = sim->measure;
+    report.load = executive->load;
+    report.has_v10 = sim->has_v10;
+    report.v10_step = sim->v10_step;
+    report.v10_fraction_q15 = sim->v10_fraction_q15;
+    report.generation = publish_taken(&executive->publish);
+    report.input = sim->input;
+    report.stales = sim->watch.stales;
+    report.safes = sim->watch.safes;
+    handoff_write(&executive->handoff, &report);
+    executive->until_report = TICKS_PER_REPORT;
+}
+
+static void push_sample(struct executive *executive)
+{
+    struct sample sample;
+
+    sim_sample(&executive->sim, &sample);
+    sample.epoch = executive->in_force.epoch;
+    sample.number = (uint16_t)(executive->samples.head + executive->samples.dropped);
+    (void)ring_push(&executive->samples, &sample); /* a full ring counts the drop itself */
+    executive->until_sample = executive->in_force.sample_every;
+}
+
+/* Those whose step has come. The safe state voids all that wait: after it only what comes anew may act. */
+static void take_due_inputs(struct executive *executive)
+{
+    struct input_queue *waiting = &executive->inputs_waiting;
+    struct input input;
+
+    if (executive->sim.watch.state == WATCH_SAFE) {
+        executive->sim.counters.inputs_void += waiting->count;
+        waiting->count = 0u;
+    }
+    while (input_queue_take(waiting, executive->sim.step, &input)) {
+        sim_input(&executive->sim, &input);
+    }
+    word_write(&executive->inputs_queued, waiting->count);
+}
+
+/* New demands take hold or find their places, for which main keeps room. What belongs to the run before a reset is void. */
+static void collect_inputs(struct executive *executive)
+{
+    struct input input;
+
+    if (executive->inputs_waiting.count == 0u && ring_fill(&executive->inputs) == 0u) {
+        return;
+    }
+    take_due_inputs(executive);
+    while (ring_pop(&executive->inputs, &input)) {
+        if (input.epoch != executive->in_force.epoch) {
+            continue;
+        }
+        if (input.step <= executive->sim.step || executive->sim.watch.state == WATCH_SAFE) {
+            sim_input(&executive->sim, &input);
+        } else {
+            input_queue_put(&executive->inputs_waiting, &input);
+        }
+    }
+    word_write(&executive->inputs_queued, executive->inputs_waiting.count);
+}
+
+static void take_reset(struct executive *executive, const struct executive_order *order)
+{
+    executive->load = (struct executive_load){0};
+    executive->inputs_waiting.count = 0u;
+    if (order->is_restore) {
+        snapshot_restore(executive->image, &executive->sim, &executive->inputs_waiting);
+        sim_resume(&executive->sim, &executive->in_force.plan);
+    } else {
+        sim_reset(&executive->sim, &executive->in_force.plan);
+    }
+    word_write(&executive->inputs_queued, executive->inputs_waiting.count);
+}
+
+static void take_order(struct executive *executive)
+{
+    const struct executive_order *order = publish_take(&executive->publish);
+    const uint32_t every_before = executive->in_force.sample_every;
+
+    if (order == NULL) {
+        return;
+    }
+    executive->in_force = *order;
+    if (order->is_reset) {
+        take_reset(executive, order);
+    } else if (order->is_new_plan) {
+        sim_apply(&executive->sim, &executive->in_force.plan);
+    }
+    if (order->measure_steps != 0u) {
+        sim_measure(&executive->sim, order->measure_steps);
+    }
+    if (order->is_snapshot) {
+        collect_inputs(executive); /* what is on its way belongs to the run */
+        snapshot_take(executive->image, &executive->sim, &executive->inputs_waiting);
+    }
+    if (order->sample_every != every_before || order->is_reset) {
+        executive->until_sample = order->sample_every;
+    }
+    write_report(executive);
+}
+
+static uint32_t steps_due(const struct executive *executive)
+{
+    const uint32_t credit = word_read(&executive->is_free) != 0u ? UINT32_MAX : executive_credit(executive);
+
+    return credit < executive->in_force.substeps ? credit : executive->in_force.substeps;
+}
+
+/* In free run the controller is asked by the wall's time, and that passes without steps too. */
+static void pass_time(struct executive *executive, uint32_t ticks)
+{
+    if (executive->sim.watch.state != WATCH_OFF && word_read(&executive->is_free) != 0u) {
+        watch_pass(&executive->sim.watch, &executive->in_force.plan.watch.free, ticks * executive->in_force.substeps);
+    }
+}
+
+/* One step, and before it whatever belongs to it. Returns true when the detector has a new verdict. */
+static bool make_step(struct executive *executive, const struct watch_pace *pace)
+{
+    bool has_news;
+
+    if (executive->inputs_waiting.count != 0u) {
+        take_due_inputs(executive);
+    }
+    if (executive->sim.watch.state != WATCH_OFF) {
+        sim_watch(&executive->sim, pace);
+    }
+    has_news = sim_step(&executive->sim);
+    if (executive->in_force.sample_every != 0u && --executive->until_sample == 0u) {
+        push_sample(executive);
+    }
+    return has_news;
+}
+
+bool executive_tick(struct executive *executive, bool is_due)
+{
+    const struct watch_config *watch = &executive->in_force.plan.watch;
+    const struct watch_pace *pace;
+    uint8_t watch_before;
+    uint32_t steps;
+    bool has_news = false;
+
+    take_order(executive);
+    watch_before = executive->sim.watch.state;
+    if (!is_due) {
+        collect_inputs(executive);
+        if (executive->sim.watch.state != watch_before) {
+            write_report(executive);
+        }
+        return false;
+    }
+    if (executive->to_shed != 0u) {
+        executive->to_shed--;
+        executive->load.shed++;
+        pass_time(executive, 1u);
+        return false;
+    }
+    collect_inputs(executive); /* none comes meanwhile */
+    pace = word_read(&executive->is_free) != 0u ? &watch->free : &watch->locked;
+    steps = steps_due(executive);
+    for (uint32_t i = 0u; i < steps; i++) {
+        has_news = make_step(executive, pace) || has_news;
+    }
+    if (word_read(&executive->is_free) == 0u) {
+        word_write(&executive->used, word_read(&executive->used) + steps);
+    }
+    executive->load.ticks++;
+    has_news = has_news || executive->sim.watch.state != watch_before;
+    if (has_news || --executive->until_report == 0u || !executive_wants_tick(executive)) {
+        write_report(executive);
+    }
+    return true;
+}
+
+void executive_book(struct executive *executive, const struct executive_tick_time *time, bool is_late)
+{
+    struct executive_load *load = &executive->load;
+
+    if (load->period != time->period) {
+        load->period = time->period;
+        load->busy_max = 0u;
+        load->busy_sum = 0u;
+        load->elapsed = 0u;
+    }
+    load->busy_max = time->busy > load->busy_max ? time->busy : load->busy_max;
+    load->busy_sum += time->busy;
+    load->elapsed += time->elapsed;
+    if (is_late || time->busy > time->period - time->period / MAIN_SHARE) {
+        const uint32_t periods = time->busy / time->period;
+
+        load->overruns++;
+        executive->to_shed = periods + 1u;
+        pass_time(executive, periods > 1u ? periods - 1u : 0u); /* of the ticks meanwhile the timer kept one */
+    }
+    if (!executive_wants_tick(executive)) {
+        write_report(executive); /* the last tick's time is in it too */
+    }
+}
+
+bool executive_is_behind(const struct executive *executive) { return executive->to_shed != 0u; }
+
+bool executive_is_squealing(const struct executive *executive)
+{
+    return executive->sim.detector.verdict.propensity == PROPENSITY_SQUEAL;
+}

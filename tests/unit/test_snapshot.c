@@ -1,0 +1,252 @@
+/* A run as bytes: it goes on with the same bits elsewhere, and what is forged does no harm. That no field is forgotten is for
+ * tools/check_snapshot to say. */
+#include "sim/snapshot.h"
+
+#include "base/bytes.h"
+#include "base/crc32.h"
+#include "base/mem.h"
+#include "plants.h"
+#include "tap.h"
+#include "tests.h"
+
+static struct executive one;
+static struct executive other;
+static uint8_t image[SNAPSHOT_SIZE];
+
+static void open_brake(struct executive *executive, float arith, const char *assignments)
+{
+    struct params params = plants_preset("brake", assignments);
+
+    params.arithmetic = arith;
+    executive_init(executive, ARITH_F32);
+    (void)executive_reset(executive, &params);
+    executive_tick(executive, false);
+}
+
+static void run(struct executive *executive, uint32_t steps)
+{
+    executive_grant(executive, steps);
+    plants_spend(executive);
+}
+
+static void demand(struct executive *executive, float newton, uint64_t step)
+{
+    const struct input_demand wanted = {.load = INPUT_LOAD_FORCE, .load_value = newton, .step = step};
+
+    (void)executive_input(executive, &wanted, NULL);
+}
+
+static void take(struct executive *executive)
+{
+    executive_snapshot(executive);
+    executive_tick(executive, false);
+    memcpy(image, executive->image, sizeof image);
+}
+
+static enum error put_back(struct executive *executive)
+{
+    enum error error;
+
+    memcpy(executive->image, image, sizeof image);
+    error = executive_restore(executive).error;
+    if (error == ERROR_OK) {
+        executive_tick(executive, false);
+    }
+    return error;
+}
+
+/* --- It goes on ----------------------------------------------------------------------------------------------------- */
+
+static bool go_on_alike(uint32_t steps)
+{
+    run(&one, steps);
+    run(&other, steps);
+    take(&one);
+    executive_snapshot(&other);
+    executive_tick(&other, false);
+    return one.sim.hash == other.sim.hash && memcmp(image, other.image, sizeof image) == 0;
+}
+
+/* Many runs, each left at a random step with demands in all stages, and gone on with by another executive. */
+static void check_going_on(float arith)
+{
+    static const char *const sets[] = {"",
+                                       "normal exact",
+                                       "load sine N0 2000 N1 700 fN 500 spp 128",
+                                       "contact lift normal exact load step N0 3000 N1 1000 t1 0.01",
+                                       "stale 0.003 safe 0.006 ramp 0.01",
+                                       "method naive",
+                                       "cn 5 normal exact rough 0.01 runout 0.2",
+                                       "mu_floor 0.1 contact no_pull speed ramp v1 -0.1 tv2 0.05"};
+    uint32_t state_of_dice = 7u;
+    bool ok = true;
+
+    executive_init(&other, ARITH_F32);
+    for (unsigned i = 0u; i < sizeof sets / sizeof sets[0]; i++) {
+        const uint32_t before = plants_scaled(100u + tap_random(&state_of_dice) % 40000u, 300u);
+
+        open_brake(&one, arith, sets[i]);
+        demand(&one, 2500.0f, before / 2u);
+        demand(&one, 2800.0f, before + 500u);
+        run(&one, before / 3u);
+        executive_measure(&one, 3u * (uint64_t)before);
+        executive_tick(&one, false);
+        run(&one, before - before / 3u);
+        demand(&one, 2600.0f, INPUT_NOW); /* on its way */
+        take(&one);
+        memset(&other.sim, 0xa5, sizeof other.sim);
+        memset(&other.inputs_waiting, 0xa5, sizeof other.inputs_waiting);
+        ok = put_back(&other) == ERROR_OK && go_on_alike(plants_scaled(20000u, 1000u)) && ok;
+    }
+    tap_check(ok, "left at any step, it goes on with the same bits, verdicts and counters");
+}
+
+static void check_standing(void)
+{
+    struct executive_report report;
+
+    open_brake(&one, (float)ARITH_F32, "substeps 7");
+    run(&one, 777u);
+    take(&one);
+    open_brake(&other, (float)ARITH_Q27, "N1 1000 tick 50");
+    executive_stream(&other, 10u);
+    executive_tick(&other, false);
+    run(&other, 55u);
+    tap_check(put_back(&other) == ERROR_OK, "a run of another arithmetic");
+    executive_report(&other, &report);
+    tap_check(report.now.step == 777u && report.now.hash == one.sim.hash && report.load.ticks == 0u,
+              "is reported as it stands");
+    tap_check(memcmp(executive_params(&other), executive_params(&one), sizeof(struct params)) == 0,
+              "its set is the one in force");
+    tap_check(other.resets == 3u && executive_scale(&other, report.now.epoch) == &other.scales[report.now.epoch & 1u] &&
+                  executive_scale(&other, report.now.epoch)->step_s == executive_plan(&one)->scale.step_s,
+              "and its scale");
+    while (ring_pop(&other.samples, &report.now)) {
+    }
+    run(&other, 10u);
+    tap_check(ring_fill(&other.samples) == 1u, "the stream goes on, counted from there");
+    open_brake(&one, (float)ARITH_F32, "v_max 8");
+    run(&one, 100u);
+    (void)plants_order(&one, "", false, NULL);
+    take(&one);
+    tap_check(put_back(&other) == ERROR_OK && other.in_force.plan.scale.speed_m_per_s == 8.0f,
+              "units are those that were latched");
+}
+
+static void check_room(void)
+{
+    open_brake(&one, (float)ARITH_F32, "");
+    for (uint64_t i = 0u; i < INPUT_QUEUE_MAX; i++) {
+        demand(&one, 2000.0f, 10000u + i);
+    }
+    run(&one, 1u);
+    take(&one);
+    tap_check(put_back(&other) == ERROR_OK && other.inputs_waiting.count == INPUT_QUEUE_MAX, "demands that wait");
+    demand(&other, 2000.0f, 20000u);
+    tap_check(other.inputs_refused == 1u, "take their room");
+    (void)plants_order(&other, "N0 2", true, NULL);
+    executive_tick(&other, false);
+    demand(&other, 2.0f, 20000u);
+    tap_check(other.inputs_refused == 1u, "and a reset gives it back");
+}
+
+/* --- What is refused ------------------------------------------------------------------------------------------------ */
+
+static void sign(void)
+{
+    struct bytes_writer writer = {.bytes = image + SNAPSHOT_SIZE - 4, .capacity = 4u};
+
+    bytes_put_u32(&writer, crc32_add(0u, image, SNAPSHOT_SIZE - 4u));
+}
+
+/* The image with a byte changed and a CRC that fits. */
+static enum error with_byte(size_t at, uint8_t byte)
+{
+    const uint8_t before = image[at];
+    enum error error;
+
+    image[at] = byte;
+    sign();
+    error = put_back(&other);
+    image[at] = before;
+    sign();
+    return error;
+}
+
+static void check_refusals(void)
+{
+    enum { SET = 4, PARAM_N0 = SET + 4 * 11, LATCHED_LOAD = SET + 4 * 42, SHIFT = LATCHED_LOAD + 8 };
+    uint32_t hash;
+    bool ok = true;
+
+    open_brake(&one, (float)ARITH_F32, "");
+    run(&one, 5000u);
+    take(&one);
+    open_brake(&other, (float)ARITH_F32, "N1 1000");
+    run(&other, 100u);
+    hash = other.sim.hash;
+    for (size_t i = 0u; i < SNAPSHOT_SIZE; i++) {
+        image[i] ^= (uint8_t)(1u << i % 8u);
+        ok = put_back(&other) == ERROR_WRONG_CRC && ok;
+        image[i] ^= (uint8_t)(1u << i % 8u);
+    }
+    tap_check(ok, "one bit that is not as it was");
+    tap_check(with_byte(0u, SNAPSHOT_LAYOUT + 1) == ERROR_WRONG_LAYOUT, "another layout");
+    tap_check(with_byte(2u, PARAMS_VERSION + 1) == ERROR_WRONG_LAYOUT, "another table of parameters");
+    tap_check(with_byte(PARAM_N0 + 3u, 0xc0u) == ERROR_OUT_OF_RANGE, "a parameter out of its range");
+    image[PARAM_N0 + 2u] = 0xc0u;
+    tap_check(with_byte(PARAM_N0 + 3u, 0x7fu) == ERROR_OUT_OF_RANGE, "one that is no number");
+    image[PARAM_N0 + 2u] = 0u;
+    tap_check(with_byte(LATCHED_LOAD + 3u, 0x30u) == ERROR_OUT_OF_SCALE, "a set that does not fit its units");
+    tap_check(with_byte(SHIFT, 9u) == ERROR_OUT_OF_RANGE, "units that there are not");
+    tap_check(other.sim.hash == hash && other.sim.step == 100u && executive_params(&other)->load_end_n == 1000.0f &&
+                  !executive_has_order(&other),
+              "nothing of it happens");
+    tap_check(put_back(&other) == ERROR_OK && other.sim.hash == one.sim.hash, "as it was it is fine");
+}
+
+/* Whoever can compute a CRC can send anything: it is refused, or it runs. The sanitizers look on. */
+static void check_forged(float arith, const char *assignments)
+{
+    static uint8_t good[SNAPSHOT_SIZE];
+    uint32_t dice = 11u;
+    uint32_t taken = 0u;
+    const uint32_t rounds = plants_scaled(2500u, 60u);
+
+    open_brake(&one, arith, assignments);
+    demand(&one, 2500.0f, 7000u);
+    run(&one, 6000u);
+    take(&one);
+    memcpy(good, image, sizeof good);
+    for (uint32_t i = 0u; i < rounds; i++) {
+        for (uint32_t changes = 1u + i % 4u; changes > 0u; changes--) {
+            static const uint8_t edges[] = {0x00u, 0x01u, 0x7fu, 0x80u, 0xffu};
+            const uint32_t at = 4u + tap_random(&dice) % (SNAPSHOT_SIZE - 8u);
+            const uint32_t byte = tap_random(&dice) >> 8;
+
+            image[at] = byte % 2u == 0u ? edges[byte / 2u % sizeof edges] : (uint8_t)(byte >> 8);
+        }
+        sign();
+        if (put_back(&other) == ERROR_OK) {
+            taken++;
+            run(&other, 300u);
+        }
+        memcpy(image, good, sizeof good);
+    }
+    tap_check(taken > rounds / 10u && taken < rounds, "forged ones are refused, or run");
+    tap_note_number("of them ran", (float)taken);
+}
+
+void test_snapshot(void)
+{
+    check_going_on((float)ARITH_F32);
+    check_going_on((float)ARITH_Q27);
+    check_standing();
+    check_room();
+    check_refusals();
+    check_forged((float)ARITH_F32, "");
+    check_forged((float)ARITH_Q27, "");
+    check_forged((float)ARITH_Q27, "normal exact");
+    check_forged((float)ARITH_Q27, "contact lift normal exact");
+    check_forged((float)ARITH_F32, "contact lift normal exact stale 0.001 safe 0.002 ramp 0.01");
+}
