@@ -5,7 +5,6 @@
 #include "bench.h"
 #include "model/params.h"
 #include "sim/watch.h"
-#include "sim/watch.h"
 #include "tap.h"
 #include "tests.h"
 
