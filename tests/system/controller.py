@@ -26,17 +26,19 @@ PRESETS = [row[0].strip('"') for row in rows("model/presets.def", "PRESET")]
 
 # Payloads of requests and replies, for struct.
 REQUESTS = {"HELLO": "BB", "PING": "Q", "STATUS": "", "DICTIONARY": "BB", "READ": "BB", "STAGE": "Bf", "COMMIT": "IB",
-            "REVERT": "", "PRESET": "B", "RUN": "", "STOP": "", "RESET": "", "STEP": "IBBff", "INPUT": "QBBff", "STREAM": "II"}
-REPLIES = {"HELLO": "BBHHHBBBBH16s32s24s16s", "PING": "Q", "STATUS": "BQIIIff24I", "DICTIONARY": "BBBHBBfff24s48s149s",
+            "REVERT": "", "PRESET": "B", "RUN": "", "STOP": "", "RESET": "", "STEP": "IBBff", "INPUT": "QBBff", "STREAM": "II",
+            "SNAPSHOT": "H", "RESTORE": "HH232s"}
+REPLIES = {"HELLO": "BBHHHBBBBH16s32s24s16s", "PING": "Q", "STATUS": "BQIIIff24IBII", "DICTIONARY": "BBBHBBfff24s48s149s",
            "READ": "BBf", "STAGE": "BfI", "COMMIT": "IBI", "REVERT": "I", "PRESET": "II", "RUN": "Q", "STOP": "Q", "RESET": "Q",
-           "STEP": "QI7fbBBBB", "INPUT": "B", "STREAM": "IIH"}
+           "STEP": "QI7fbBBBB", "INPUT": "B", "STREAM": "IIH", "SNAPSHOT": "HH232s", "RESTORE": "HQ"}
 STATUS = ("state step generation hash set_crc step_s sigma events caps saturations lifted gap_held ticks overruns shed inputs late "
           "clamped inputs_refused offered sent dropped waiting accepted damaged too_long bad_cobs too_short bad_crc garbage "
-          "refused").split()
+          "refused input_state times_stale times_safe").split()
 STEP = "step hash x xd y yd load friction v0 mode propensity motion period flags".split()
 KEEP, PROFILE, FORCE, PRESSURE = range(4)
 KEEP, PROFILE, DISC, VEHICLE = range(4)
 SAMPLE, ERROR = 0x40, 0xff
+PIECE, STARTS = 232, 0x80
 
 
 class Silence(Exception):
@@ -177,6 +179,19 @@ class Controller:
         for symbol, value in values.items():
             crc = self.ask("STAGE", SYMBOLS.index(symbol), value)[2]
         return self.ask("COMMIT", crc, may_reset)
+
+    def snapshot(self):
+        """The run as bytes."""
+        run, size = b"", 1
+        while len(run) < size:
+            size, offset, piece = self.ask("SNAPSHOT", len(run))
+            run += piece
+        return run[:size]
+
+    def restore(self, run):
+        """Goes on with a run."""
+        for offset in range(0, len(run), PIECE):
+            self.ask("RESTORE", offset, len(run), run[offset:offset + PIECE])
 
     def preset(self, name):
         return self.ask("PRESET", PRESETS.index(name))
