@@ -53,6 +53,22 @@ plant src/sim/a.c '/* a volatile\n thing */ #include "base/clean.h"\n#include "m
 ok 'layers: what is allowed passes' "$root/tools/check_layers" "$work/tree"
 red 'layers: a missing tree' 'no src' "$root/tools/check_layers" "$work"
 
+ok 'every field of a run is in its snapshot' tools/check_snapshot
+forget() { # name, file, a line to plant after another, complaint
+    rm -rf "$work/tree"
+    mkdir -p "$work/tree"
+    cp -r src "$work/tree"
+    sed -i "/$3/a\\    $4" "$work/tree/src/$2"
+    red "snapshot: $1" "$5" "$root/tools/check_snapshot" "$work/tree"
+}
+forget 'a forgotten field' sim/detector.h '^    uint32_t evidence;' 'bool is_new;' 'struct detector: is_new is not in the snapshot'
+forget 'one of two in a line' sim/measure.h '^    int32_t level;' 'int32_t x1, x_new[3]; \/* why *\/' 'struct measure: x_new is not in the snapshot'
+forget 'one that another struct has' sim/sim.h '^    uint32_t caps;' 'uint32_t crossings;' 'struct sim_counters: crossings is not in the snapshot'
+forget 'another struct' sim/sim.h '^    struct watch watch;' 'struct handoff measure;' 'struct handoff is not known here'
+rm "$work/tree/src/sim/snapshot_walk.c"
+red 'snapshot: a missing file' 'no src/sim/snapshot_walk.c' "$root/tools/check_snapshot" "$work/tree"
+rm -rf "$work/tree"
+
 symbols() { # name, source text, complaint
     printf '%b\n' "$2" >"$work/a.c"
     arm-none-eabi-gcc $cpu -mthumb -O1 -ffreestanding -c "$work/a.c" -o "$work/a.o" || exit 1

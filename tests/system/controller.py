@@ -27,14 +27,15 @@ PRESETS = [row[0].strip('"') for row in rows("model/presets.def", "PRESET")]
 # Payloads of requests and replies, for struct.
 REQUESTS = {"HELLO": "BB", "PING": "Q", "STATUS": "", "DICTIONARY": "BB", "READ": "BB", "STAGE": "Bf", "COMMIT": "IB",
             "REVERT": "", "PRESET": "B", "RUN": "", "STOP": "", "RESET": "", "STEP": "IBBff", "INPUT": "QBBff", "STREAM": "II",
+            "SNAPSHOT": "H", "RESTORE": "HH232s",
             "SCAN": "BBffHBBffHHHB", "MARGIN": "BfHHB", "VERDICT": "", "SELFTEST": "", "OCCURRENCE": "IIB4fHHB"}
-REPLIES = {"HELLO": "BBHHHBBBBH16s32s24s16s", "PING": "Q", "STATUS": "BQIIIff24I", "DICTIONARY": "BBBHBBfff24s48s149s",
+REPLIES = {"HELLO": "BBHHHBBBBH16s32s24s16s", "PING": "Q", "STATUS": "BQIIIff24IBII", "DICTIONARY": "BBBHBBfff24s48s149s",
            "READ": "BBf", "STAGE": "BfI", "COMMIT": "IBI", "REVERT": "I", "PRESET": "II", "RUN": "Q", "STOP": "Q", "RESET": "Q",
-           "STEP": "QI7fbBBBB", "INPUT": "B", "STREAM": "IIH", "SCAN": "I", "MARGIN": "I", "VERDICT": "6B16f",
-           "SELFTEST": "BBI", "OCCURRENCE": "I"}
+           "STEP": "QI7fbBBBB", "INPUT": "B", "STREAM": "IIH", "SNAPSHOT": "HH232s", "RESTORE": "HQ", "SCAN": "I", "MARGIN": "I",
+           "VERDICT": "6B16f", "SELFTEST": "BBI", "OCCURRENCE": "I"}
 STATUS = ("state step generation hash set_crc step_s sigma events caps saturations lifted gap_held ticks overruns shed inputs late "
           "clamped inputs_refused offered sent dropped waiting accepted damaged too_long bad_cobs too_short bad_crc garbage "
-          "refused").split()
+          "refused input_state times_stale times_safe").split()
 STEP = "step hash x xd y yd load friction v0 mode propensity motion period flags".split()
 KEEP, PROFILE, FORCE, PRESSURE = range(4)
 KEEP, PROFILE, DISC, VEHICLE = range(4)
@@ -42,6 +43,7 @@ VERDICT = ("propensity motion period band predicted flags amplitude_um velocity_
            "frequency_hz level_dba_estimate growth_per_s growth_error_per_s stick slipminus predicted_growth_per_s "
            "predicted_touch_ratio onset_touch_ratio t_v10 sigma").split()
 SAMPLE, ERROR = 0x40, 0xff
+PIECE, STARTS = 232, 0x80
 
 # What a study tells by itself: name and fields by the type of the frame.
 RESULTS = {
@@ -211,6 +213,19 @@ class Controller:
         for symbol, value in values.items():
             crc = self.ask("STAGE", SYMBOLS.index(symbol), value)[2]
         return self.ask("COMMIT", crc, may_reset)
+
+    def snapshot(self):
+        """The run as bytes."""
+        run, size = b"", 1
+        while len(run) < size:
+            size, offset, piece = self.ask("SNAPSHOT", len(run))
+            run += piece
+        return run[:size]
+
+    def restore(self, run):
+        """Goes on with a run."""
+        for offset in range(0, len(run), PIECE):
+            self.ask("RESTORE", offset, len(run), run[offset:offset + PIECE])
 
     def preset(self, name):
         return self.ask("PRESET", PRESETS.index(name))

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """The link on the host and on the board: the same bits in lockstep, in free run, beside garbage, after a pause; a STEP that
-is sent twice; a reader that stops; and the frames of PROTOCOL.md."""
+is sent twice; a reader that stops; a controller that falls silent; a run that moves from board to board; and the frames of
+PROTOCOL.md."""
 import contextlib
 import os
 import random
@@ -14,26 +15,26 @@ import tempfile
 import time
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from controller import (DISC, FORCE, KEEP, PRESSURE, PROFILE, SAMPLE, SOURCES, TYPES, VEHICLE, Controller,  # noqa: E402
-                        SYMBOLS, SIGNALS, REQUESTS, unwire, wire)
-from firmware import Firmware, Tap  # noqa: E402
+from controller import (DISC, FORCE, KEEP, PIECE, PRESSURE, PROFILE, SAMPLE, SOURCES, STARTS, TYPES, VEHICLE,  # noqa: E402
+                        Controller, SYMBOLS, SIGNALS, REQUESTS, Refused, unwire, wire)
+from firmware import COMMANDS, Firmware, Tap  # noqa: E402
 
 STEPS = 20000
-FAULT, CLAMPED, CUT = 1, 2, 4
+FAULT, CLAMPED, CUT, STALE, SAFE = 1, 2, 4, 8, 16
 tap = Tap()
 folder = tempfile.mkdtemp(prefix="squeal-link-")
 paths = (os.path.join(folder, str(number)) for number in range(1000))
 
 
 @contextlib.contextmanager
-def linked(where, preset="brake", **values):
+def linked(where, preset="brake", number_format=None, **values):
     """(controller, firmware) with the preset and these values in force, at step 0."""
     path = next(paths)
     with Firmware(where, limit_s=120, link=path) as firmware:
         controller = Controller(path, limit_s=120)
         controller.ask("HELLO", 1, 0)
         controller.preset(preset)
-        controller.set(arith=arith, **values)
+        controller.set(arith=arith if number_format is None else number_format, **values)
         try:
             yield controller, firmware
         finally:
@@ -177,6 +178,89 @@ for where in ("host", "board"):
                   f"{where}: afterwards it is as before")
         tap.note(f"{where}: {len(steps)} samples of {size} bytes read, {status['dropped']} dropped")
 
+# --- A controller that falls silent ---------------------------------------------------------------------------------
+STEP_S = 7.79e-6  # of the brake
+
+
+def silences(where):
+    """(step, hash, flags, propensity), or the reason of a refusal, for each turn of a controller that comes and goes."""
+    dice, seen = random.Random(4), []
+    with linked(where, tick=20000.0, stale=50 * STEP_S, safe=150 * STEP_S, ramp=100 * STEP_S) as (controller, _):
+        for turn in range(1500):
+            is_silent = turn // 40 % 3 == 2
+            kind = KEEP if is_silent or dice.random() < 0.5 else FORCE | (STARTS if dice.random() < 0.1 else 0)
+            try:
+                state = controller.step(dice.randint(1, 25), kind, dice.uniform(1000, 4000))
+                seen.append((state["step"], state["hash"], state["flags"], state["propensity"]))
+            except Refused as refused:
+                controller.step_sequence -= 1
+                seen.append(refused.reason)
+        return seen, controller.status()
+
+
+truth, status = silences("host")
+flags = [row[2] for row in truth if row != "safe-state"]
+tap.check({0, STALE, SAFE} == set(flags) and "safe-state" in truth and status["times_safe"] > 5 and
+          all(row[3] == 0 for row in truth if row != "safe-state" and row[2]),
+          f"a controller that comes and goes: {status['times_stale']} times stale, {status['times_safe']} times safe, "
+          "and no verdict then")
+tap.check(all(truth[at + 1] == "safe-state" or truth[at + 1][2] == SAFE or at + 1 in starts
+              for starts in [{i for i, row in enumerate(truth) if row != "safe-state" and row[2] == 0}]
+              for at, row in enumerate(truth[:-1]) if row == "safe-state"),
+          "after a refusal it is safe, or has been started")
+seen, _ = silences("board")
+tap.check(seen == truth, "board: the same", *[f"{a} instead of {b}" for a, b in zip(seen, truth) if a != b][:3])
+
+for where in ("host", "board"):
+    with linked(where, tick=1000.0, substeps=8.0, stale=0.2, safe=0.4, ramp=0.2) as (controller, _):
+        controller.ask("RUN")
+        controller.ask("INPUT", 0, FORCE, KEEP, 2000.0, 0.0)
+        states = [controller.status()]
+        while states[-1]["input_state"] != 3:
+            states.append(controller.status())
+        ticks = [next(state["ticks"] for state in states if state["input_state"] == wanted) for wanted in (1, 2, 3)]
+        refusal = controller.refusal("INPUT", 0, FORCE, KEEP, 2000.0, 0.0).reason
+        controller.ask("RUN")
+        controller.ask("INPUT", 0, FORCE, KEEP, 2000.0, 0.0)
+        tap.check(ticks[1] >= 200 and ticks[2] >= 400 and refusal == "safe-state" and
+                  controller.status()["input_state"] == 1,
+                  f"{where}: in free run the wall's time counts, and a RUN leads back", f"{ticks} {refusal}")
+
+# --- A run on another board -----------------------------------------------------------------------------------------
+
+
+def go_on(controller, seed):
+    dice, seen = random.Random(seed), []
+    for _ in range(60):
+        seen.append(tuple(controller.step(dice.randint(1, 40), *demand(dice)).values()))
+    return seen, {key: controller.status()[key] for key in ("hash", "set_crc", "events", "inputs", "input_state")}
+
+
+for arithmetic, name in enumerate(("f32", "q27")):
+    for where in ("host", "board"):
+        with linked(where, number_format=arithmetic, tick=20000.0, stale=100 * STEP_S) as (controller, _):
+            go_on(controller, 5)
+            controller.ask("INPUT", controller.at + 777, FORCE, KEEP, 3300.0, 0.0)
+            run, at = controller.snapshot(), controller.at
+            truth = go_on(controller, 6)
+            controller.restore(run)
+            tap.check(controller.at == at and go_on(controller, 6) == truth,
+                      f"{name} on {where}: put back at step {at}, the run is the same again")
+            broken = bytearray(run)
+            broken[1000] ^= 1
+            try:
+                controller.restore(bytes(broken))
+                reason = "none"
+            except Refused as refused:
+                reason = refused.reason
+            tap.check(reason == "wrong-crc" and controller.status()["hash"] == truth[1]["hash"],
+                      f"{name} on {where}: a broken one is refused, and nothing changes", reason)
+        for target in sorted(set(COMMANDS) - {"board"}):
+            with linked(target, "table1", number_format=1 - arithmetic, tick=20000.0) as (controller, _):
+                controller.restore(run)
+                tap.check(controller.snapshot() == run and go_on(controller, 6) == truth,
+                          f"{name} from {where} to {target}: byte for byte the same image, and the same run")
+
 # --- What a turn takes ----------------------------------------------------------------------------------------------
 for where in ("host", "board"):
     with linked(where, tick=20000.0) as (controller, _):
@@ -187,13 +271,21 @@ for where in ("host", "board"):
 
 # --- The frames of the document -------------------------------------------------------------------------------------
 with open(os.path.join(SOURCES, "protocol", "PROTOCOL.md"), encoding="utf-8") as page:
-    worked = re.findall(r"^    ([<>]) ((?:[0-9a-f]{2} ?)+)(\.\.\.)?", page.read(), re.MULTILINE)
+    document = page.read()
+worked = re.findall(r"^    ([<>]) ((?:[0-9a-f]{2}(?:\*\d+)? ?)+)(\.\.\.)?", document, re.MULTILINE)
+
+
+def told(words):
+    """Bytes as the document writes them: 01*20 is twenty times 01."""
+    return b"".join(bytes.fromhex(word[:2]) * int(word[3:] or 1) for word in words.split())
+
+
 path = next(paths)
 with Firmware("host", link=path):
     controller = Controller(path)
     wrong, count = [], 0
     for side, text, is_cut in worked:
-        said = bytes.fromhex(text)
+        said = told(text)
         if side == ">":
             controller.send(said)
             count += 1
@@ -203,7 +295,10 @@ with Firmware("host", link=path):
             if heard != said:
                 wrong.append(f"{heard.hex(' ')} instead of {text}")
 tap.check(count >= len(TYPES) and not wrong, f"{len(worked)} frames of the document are those on the line", *wrong)
-asked = {unwire(bytes.fromhex(text)[:-1])[0] for side, text, _ in worked if side == ">"}
+image = document[document.index("The image,"):document.index("A frame of the detector:")]
+sizes = re.findall(r"^\| (\d+) \| ", image, re.MULTILINE)
+tap.check(sum(map(int, sizes)) == len(run), "the fields of the image are as long as it is", str(sizes))
+asked = {unwire(told(text)[:-1])[0] for side, text, _ in worked if side == ">"}
 tap.check(set(TYPES.values()) <= asked, "every type of request is among them", str(set(TYPES.values()) - asked))
 
 shutil.rmtree(folder)
