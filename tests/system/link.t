@@ -1,25 +1,19 @@
 #!/usr/bin/env python3
-"""The link on the host and on the board: the same bits in lockstep, in free run, beside garbage, after a pause; a STEP that
-is sent twice; a reader that stops; and the frames of PROTOCOL.md."""
+"""The link beside the console, a STEP that is sent twice, and the frames of PROTOCOL.md. Its bits are lockstep.t's."""
 import contextlib
 import os
-import random
 import re
 import shutil
-import signal
-import socket
 import struct
 import sys
 import tempfile
 import time
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from controller import (DISC, FORCE, KEEP, PRESSURE, PROFILE, SAMPLE, SOURCES, TYPES, VEHICLE, Controller,  # noqa: E402
-                        SYMBOLS, SIGNALS, REQUESTS, unwire, wire)
+from controller import FORCE, KEEP, REQUESTS, SOURCES, TYPES, Controller, unwire, wire  # noqa: E402
 from firmware import Firmware, Tap  # noqa: E402
 
-STEPS = 20000
-FAULT, CLAMPED, CUT = 1, 2, 4
+CUT = 4
 tap = Tap()
 folder = tempfile.mkdtemp(prefix="squeal-link-")
 paths = (os.path.join(folder, str(number)) for number in range(1000))
@@ -48,88 +42,6 @@ def own_arithmetic():
 
 arith = own_arithmetic()
 
-
-def demand(dice):
-    """Random force and speed, or what they were, or back to the profiles."""
-    load_kind, speed_kind = dice.choice([KEEP, KEEP, PROFILE, FORCE, PRESSURE]), dice.choice([KEEP, KEEP, PROFILE, DISC, VEHICLE])
-    load = {FORCE: dice.uniform(-100, 13000), PRESSURE: dice.uniform(0, 4e6)}.get(load_kind, 0.0)
-    speed = {DISC: dice.uniform(-0.1, 1), VEHICLE: dice.uniform(0, 3)}.get(speed_kind, 0.0)
-    return load_kind, load, speed_kind, speed
-
-
-def lockstep(where, seed, delays, garbage=0):
-    """Where a script of random grants and inputs leads: (step, hash) after each turn, and the counters."""
-    dice, clock, seen = random.Random(seed), random.Random(time.time()), []
-    with linked(where, tick=20000.0) as (controller, _):
-        controller.ask("RESET")
-        while controller.at < STEPS:
-            count = min(dice.randint(1, 20), STEPS - controller.at)
-            if garbage:
-                noise = bytes(clock.randrange(256) for _ in range(garbage))
-                controller.send(noise[:garbage // 2] + b"\0")
-            state = controller.step(count, *demand(dice))
-            if garbage:
-                controller.send(noise[garbage // 2:] + b"\0")
-            seen.append((state["step"], state["hash"], state["flags"]))
-            if delays:
-                time.sleep(clock.uniform(0, 500e-6))
-        return seen, controller.status()
-
-
-truth, _ = lockstep("host", 1, delays=False)
-tap.check(truth[-1][0] == STEPS and len({word for _, word, _ in truth}) == len(truth) and any(flags == CLAMPED for *_, flags in truth),
-          f"the host goes {STEPS} steps in {len(truth)} turns")
-for where in ("host", "board"):
-    seen, _ = lockstep(where, 1, delays=True)
-    tap.check(seen == truth, f"{where}: the same bits in lockstep, with random inputs and delays of up to 500 us",
-              *[f"{a} instead of {b}" for a, b in zip(seen, truth) if a != b][:3])
-for where, garbage in (("host", 400), ("board", 40)):
-    seen, status = lockstep(where, 1, delays=False, garbage=garbage)
-    tap.check(seen == truth, f"{where}: garbage between the frames changes no bit")
-    tap.check(status["garbage"] > garbage * len(truth) * 0.9 and status["refused"] == 0,
-              f"{where}: it is counted, and gets silence", str(status))
-
-# --- Free run: the same inputs ahead of time, one pause of two seconds ----------------------------------------------
-dice = random.Random(2)
-INPUTS = sorted((at, *demand(dice)) for at in random.Random(3).sample(range(1, STEPS), 32))
-INPUTS = [row if row[1] or row[3] else (row[0], FORCE, 2000.0, KEEP, 0.0) for row in INPUTS]
-
-
-def free_run(where, pause_s=0.0):
-    """Runs with the inputs on their way ahead; (step, hash) where a STOP met it."""
-    with linked(where, tick=1000.0, substeps=8.0) as (controller, firmware):
-        controller.ask("RESET")
-        for at, load_kind, load, speed_kind, speed in INPUTS:
-            controller.ask("INPUT", at, load_kind, speed_kind, load, speed)
-        controller.ask("RUN")
-        while controller.status()["step"] < STEPS:
-            if pause_s and controller.at > STEPS // 4:
-                os.kill(firmware.process.pid, signal.SIGSTOP)
-                time.sleep(pause_s)
-                os.kill(firmware.process.pid, signal.SIGCONT)
-                pause_s = 0.0
-        step = controller.ask("STOP")
-        status = controller.status()
-        return step, status["hash"], status["late"], status["inputs"]
-
-
-def replay(where, step):
-    """The same inputs by STEP, each at its own, to the given step."""
-    with linked(where, tick=20000.0, substeps=64.0) as (controller, _):
-        controller.ask("RESET")
-        for at, *wanted in INPUTS:
-            if at > controller.at:
-                controller.step(at - controller.at)
-            controller.step(1, *wanted)
-        return controller.step(step - controller.at)["hash"]
-
-
-for where, pause_s in (("host", 0.0), ("board", 0.0), ("board", 2.0)):
-    step, word, late, inputs = free_run(where, pause_s)
-    tap.check(step >= STEPS and (late, inputs) == (0, 32) and replay("host", step) == word,
-              f"{where}: free run{' with a pause of 2 s' if pause_s else ''} and lockstep go through the same bits",
-              f"step {step} late {late} inputs {inputs}")
-
 # --- Twice the same ------------------------------------------------------------------------------------------------
 with linked("board", tick=20000.0) as (controller, firmware):
     payload = struct.pack("<" + REQUESTS["STEP"], 100, FORCE, KEEP, 2000.0, 0.0)
@@ -156,34 +68,6 @@ with linked("board", tick=20000.0) as (controller, firmware):
     step = controller.ask("STOP")
     tap.check(firmware.answer().startswith(f"error stopped step={step}:") and firmware.answer().startswith("ok get N0"),
               "a STOP on the link ends the console's step")
-
-# --- A reader that stops --------------------------------------------------------------------------------------------
-for where in ("host", "board"):
-    with linked(where, substeps=8.0, tick=1000.0) as (controller, firmware):
-        every, _, size = controller.ask("STREAM", (1 << len(SIGNALS)) - 1, 1)
-        controller.ask("RUN")
-        time.sleep(3.0)
-        controller.ask("STOP")
-        status = controller.status()
-        steps = [sample[1] for sample in controller.samples]
-        numbers = [sample[0] for sample in controller.samples]
-        gaps = sum(b - a - 1 for a, b in zip([0] + steps, steps + [status["step"] + 1]))
-        tap.check(status["dropped"] > 0 and status["offered"] == status["step"] == status["sent"] + status["dropped"] and
-                  status["waiting"] == 0 and len(steps) == status["sent"],
-                  f"{where}: a reader stops: what was offered is sent or dropped, exactly", str(status))
-        tap.check(gaps == status["dropped"] and all(number == (step - 1) & 0xffff for number, step in zip(numbers, steps)),
-                  f"{where}: and each gap shows in the numbers", f"{gaps} in gaps")
-        tap.check(controller.ask("STREAM", 0, 0)[0] == 0 and controller.refusal("STEP", 1, 9, 0, 0.0, 0.0, step=status["step"]).index == 1,
-                  f"{where}: afterwards it is as before")
-        tap.note(f"{where}: {len(steps)} samples of {size} bytes read, {status['dropped']} dropped")
-
-# --- What a turn takes ----------------------------------------------------------------------------------------------
-for where in ("host", "board"):
-    with linked(where, tick=20000.0) as (controller, _):
-        begun = time.monotonic()
-        for _ in range(1000):
-            controller.step(1, FORCE, 2000.0)
-        tap.note(f"{where}: {1000 / (time.monotonic() - begun):.0f} turns of one step a second")
 
 # --- The frames of the document -------------------------------------------------------------------------------------
 with open(os.path.join(SOURCES, "protocol", "PROTOCOL.md"), encoding="utf-8") as page:
