@@ -17,7 +17,7 @@ import time
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 from controller import (DISC, FORCE, KEEP, PRESSURE, PROFILE, REQUESTS, SIGNALS, TYPES, VEHICLE, Controller,  # noqa: E402
                         wire)
-from firmware import Firmware, Tap, is_emulated  # noqa: E402
+from firmware import Firmware, Silence, Tap, is_emulated  # noqa: E402
 
 STEPS = 20000
 PAUSE_S = 2.0
@@ -48,6 +48,15 @@ def linked(where, line="unix", **values):
             yield controller, firmware
         finally:
             controller.close()
+
+
+def go_on(goal, meanwhile, *with_what):
+    """Does the one until the other is reached, which must come in time."""
+    until = time.monotonic() + LIMIT_S
+    while not goal():
+        if time.monotonic() > until:
+            raise Silence("the plant does not get there")
+        meanwhile(*with_what)
 
 
 def own_arithmetic():
@@ -194,8 +203,7 @@ def free_run(where, meanwhile):
         for at, load_kind, load, speed_kind, speed in INPUTS:
             controller.ask("INPUT", at, load_kind, speed_kind, load, speed)
         controller.ask("RUN")
-        while controller.status()["step"] < STEPS:
-            meanwhile(controller, firmware)
+        go_on(lambda: controller.status()["step"] >= STEPS, meanwhile, controller, firmware)
         step = controller.ask("STOP")
         return step, controller.status()
 
@@ -224,8 +232,7 @@ for where in boards:
     with linked(where, substeps=8.0, tick=1000.0) as (controller, _):
         every, _, size = controller.ask("STREAM", (1 << len(SIGNALS)) - 1, 1)
         controller.ask("RUN")
-        while controller.status()["offered"] * size < 3e6:
-            time.sleep(1.0)
+        go_on(lambda: controller.status()["offered"] * size >= 3e6, time.sleep, 1.0)
         controller.ask("STOP")
         status = controller.status()
         steps = [sample[1] for sample in controller.samples]
