@@ -30,6 +30,8 @@ SOURCES_BOARD := $(sort $(BOARD_SOURCES)) boards/$(BOARD)/board.c
 SOURCES_IMAGE := $(SOURCES) $(wildcard src/app/*.c) $(SOURCES_BOARD)
 SOURCES_TOOL  := $(filter src/base/% src/model/% src/analysis/%,$(SOURCES)) $(wildcard tools/squeal/*.c)
 SOURCES_MERIT := $(filter-out src/protocol/%,$(SOURCES)) tools/squeal/csv.c tools/squeal/fields.c $(wildcard tests/merit/*.c)
+SOURCES_BENCH := $(filter src/base/% src/model/%,$(SOURCES)) src/protocol/frame.c src/protocol/master.c \
+                 $(filter-out %/echo.c,$(wildcard tests/bench/link/*.c))
 UNIT_TESTS    := $(filter-out tests/unit/platform_host.c,$(wildcard tests/unit/*.c))
 
 OUT_BOARD  := build/$(BOARD)
@@ -41,6 +43,9 @@ TOOL       := build/tools/squeal-tool
 ORACLE     := build/tests/oracle
 CAMPAIGN   := build/tests/frames
 MERIT      := build/tests/merit
+BENCH_LINK := build/tests/bench-link
+# A board without a UART of its own has no image that is nothing but one.
+ECHO       := $(if $(BOARD_RUN),$(OUT_BOARD)/echo$(BOARD_SUFFIX))
 
 OBJECTS_IMAGE := $(SOURCES_IMAGE:%.c=$(OUT_BOARD)/%.o)
 OBJECTS_UNIT  := $(patsubst %.c,$(OUT_BOARD)/%.o,$(SOURCES) $(SOURCES_BOARD) $(UNIT_TESTS) tests/target/platform.c)
@@ -49,7 +54,10 @@ OBJECTS_HOST  := $(patsubst %.c,build/unit/%.o,$(SOURCES) $(UNIT_TESTS) tests/un
 OBJECTS_TOOL  := $(SOURCES_TOOL:%.c=build/tools/%.o)
 OBJECTS_LINE  := $(patsubst %.c,build/tools/%.o,$(filter src/base/%,$(SOURCES)) src/protocol/frame.c $(wildcard tests/frames/*.c))
 OBJECTS_MERIT := $(SOURCES_MERIT:%.c=build/tools/%.o)
-OBJECTS       := $(sort $(OBJECTS_IMAGE) $(OBJECTS_UNIT) $(OBJECTS_PROBE) $(OBJECTS_HOST) $(OBJECTS_TOOL) $(OBJECTS_LINE) $(OBJECTS_MERIT))
+OBJECTS_BENCH := $(SOURCES_BENCH:%.c=build/tools/%.o)
+OBJECTS_ECHO  := $(patsubst %.c,$(OUT_BOARD)/%.o,$(filter src/base/%,$(SOURCES)) $(SOURCES_BOARD) tests/bench/link/echo.c)
+OBJECTS       := $(sort $(OBJECTS_IMAGE) $(OBJECTS_UNIT) $(OBJECTS_PROBE) $(OBJECTS_HOST) $(OBJECTS_TOOL) $(OBJECTS_LINE) $(OBJECTS_MERIT) \
+                        $(OBJECTS_BENCH) $(if $(ECHO),$(OBJECTS_ECHO)))
 
 # The commit's name is kept in a file that changes only when the name does.
 BUILD_ID := $(or $(shell GIT_OPTIONAL_LOCKS=0 git describe --always --dirty 2>/dev/null),unknown)
@@ -58,7 +66,7 @@ $(shell mkdir -p build && echo '$(BUILD_ID)' >build/build_id)
 endif
 
 # --- Rules ----------------------------------------------------------------------------------------------------------
-.PHONY: all run monitor test golden oracle detector noise frames debug check size clean help setup other-images host-image command
+.PHONY: all run monitor test golden oracle detector noise frames bench-link bench-link-on debug check size clean help setup other-images host-image command
 .DELETE_ON_ERROR:
 
 all: $(IMAGE) ## build the firmware for BOARD (default mps2-an386)
@@ -91,7 +99,8 @@ $(OBJECTS): $(MAKEFILES_READ) | setup
 $(IMAGE): $(OBJECTS_IMAGE)
 $(UNIT_IMAGE): $(OBJECTS_UNIT)
 $(PROBE): $(OBJECTS_PROBE)
-$(IMAGE) $(UNIT_IMAGE) $(PROBE): $(wildcard linker/*.ld)
+$(ECHO): $(OBJECTS_ECHO)
+$(IMAGE) $(UNIT_IMAGE) $(PROBE) $(ECHO): $(wildcard linker/*.ld)
 	$(call say,LD,$@)
 	$(Q)$(BOARD_CC) $(CFLAGS_BOARD) $(BOARD_LDFLAGS) $(filter %.o,$^) -o $@ $(BOARD_LIBS)
 
@@ -112,6 +121,11 @@ $(MERIT): $(OBJECTS_MERIT)
 	$(call say,LD,$@)
 	$(Q)mkdir -p $(@D)
 	$(Q)$(CC) $^ -o $@ -lm
+
+$(BENCH_LINK): $(OBJECTS_BENCH)
+	$(call say,LD,$@)
+	$(Q)mkdir -p $(@D)
+	$(Q)$(CC) $^ -o $@
 
 $(ORACLE): $(wildcard tests/oracle/*.[ch] tests/oracle/*.def) Makefile | setup
 	$(call say,CC,$@)
@@ -136,6 +150,7 @@ SWAP       ?= 0
 PAYLOAD    ?= 0-48
 SEED       ?= 1
 COUNT      ?= 10000
+TURNS      ?= 5000
 
 run: $(IMAGE) $(TOOL) ## run the demonstration and the map, results in build/run (POINTS= of the map along an axis, 0: none)
 	$(Q)$(TOOL) run --board $(BOARD) --out build/run $(if $(POINTS),--points $(POINTS)) -- $(COMMAND)
@@ -177,10 +192,20 @@ noise: host-image ## measure how much roughness starts squeal from rest, and how
 frames: $(CAMPAIGN) ## send FRAMES= frames over a line with bit errors BER= (DROP= DOUBLE= SWAP= a byte, PAYLOAD= SEED=)
 	$(Q)$(CAMPAIGN) --frames $(FRAMES) --ber $(BER) --drop $(DROP) --double $(DOUBLE) --swap $(SWAP) --payload $(PAYLOAD) --seed $(SEED)
 
-test: $(IMAGE) $(UNIT_IMAGE) $(PROBE) $(UNIT_HOST) $(TOOL) $(ORACLE) $(CAMPAIGN) $(MERIT) other-images ## run everything that a change must pass
+# What starts the firmware depends on LINK=.
+BENCH_SOCKET := $(OUT_BOARD)/bench.sock
+
+bench-link: ## count turns of lockstep a second, beside what the line alone takes (TURNS=)
+	$(Q)$(MAKE) --no-print-directory BOARD=$(BOARD) LINK=$(BENCH_SOCKET) bench-link-on
+
+bench-link-on: $(IMAGE) $(ECHO) $(BENCH_LINK)
+	$(Q)$(BENCH_LINK) --turns $(TURNS) --socket $(LINK) -- $(COMMAND) $(if $(ECHO),-- $(BOARD_RUN) $(ECHO))
+
+test: $(IMAGE) $(UNIT_IMAGE) $(PROBE) $(UNIT_HOST) $(TOOL) $(ORACLE) $(CAMPAIGN) $(MERIT) $(BENCH_LINK) $(ECHO) other-images ## run everything that a change must pass
 	$(Q)COMMANDS="$$(for board in $(BOARDS); do $(MAKE) -s --no-print-directory BOARD=$$board command; done)"; export COMMANDS; \
 	BOARD=$(BOARD) BOARD_RUN="$(BOARD_RUN)" IMAGE=$(IMAGE) UNIT_IMAGE=$(UNIT_IMAGE) PROBE=$(PROBE) \
-	    UNIT_HOST=$(UNIT_HOST) HOST_IMAGE=build/host/squeal TOOL=$(TOOL) ORACLE=$(CURDIR)/$(ORACLE) CAMPAIGN=$(CAMPAIGN) MERIT=$(CURDIR)/$(MERIT) tools/tap_summary $(wildcard tests/*.t tests/system/*.t)
+	    UNIT_HOST=$(UNIT_HOST) HOST_IMAGE=build/host/squeal TOOL=$(TOOL) ORACLE=$(CURDIR)/$(ORACLE) CAMPAIGN=$(CAMPAIGN) MERIT=$(CURDIR)/$(MERIT) \
+	    BENCH_LINK=$(BENCH_LINK) tools/tap_summary $(wildcard tests/*.t tests/system/*.t)
 
 host-image:
 	$(Q)$(MAKE) --no-print-directory BOARD=host all

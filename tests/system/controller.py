@@ -6,6 +6,7 @@ import select
 import socket
 import struct
 import time
+import tty
 import zlib
 
 SOURCES = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "src")
@@ -112,21 +113,55 @@ class Refused(Exception):
         super().__init__(f"{self.reason} index={self.index} expected={self.expected:#x} {self.low} .. {self.high}")
 
 
+class Terminal:
+    """A serial line's device, used like a socket."""
+
+    def __init__(self, path):
+        self.descriptor = os.open(path, os.O_RDWR | os.O_NOCTTY)
+        tty.setraw(self.descriptor)
+
+    def fileno(self):
+        return self.descriptor
+
+    def recv(self, size):
+        return os.read(self.descriptor, size)
+
+    def sendall(self, data):
+        while data:
+            data = data[os.write(self.descriptor, data):]
+
+    def close(self):
+        os.close(self.descriptor)
+
+
+def connect(where, limit_s):
+    """A connected socket, or what is like it; patient, because the other end may not listen yet."""
+    until = time.monotonic() + limit_s
+    while True:
+        try:
+            if where.startswith("/dev/"):
+                return Terminal(where)
+            if where.startswith("tcp:"):
+                line = socket.create_connection(("127.0.0.1", int(where[4:])), limit_s)
+                line.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
+                return line
+            line = socket.socket(socket.AF_UNIX, socket.SOCK_STREAM)
+            line.settimeout(limit_s)
+            line.connect(where)
+            return line
+        except OSError:
+            if time.monotonic() > until:
+                raise
+            time.sleep(0.02)
+
+
 class Controller:
     """One connection. Every wait has an end."""
 
-    def __init__(self, path, limit_s=30.0):
-        until = time.monotonic() + limit_s
-        self.limit_s, self.path = limit_s, path
-        self.socket = socket.socket(socket.AF_UNIX, socket.SOCK_STREAM)
-        while True:
-            try:
-                self.socket.connect(path)
-                break
-            except OSError:
-                if time.monotonic() > until:
-                    raise
-                time.sleep(0.02)
+    def __init__(self, where, limit_s=30.0):
+        """where: the path of a socket, tcp:PORT of this machine, or a terminal in /dev/."""
+        self.limit_s = limit_s
+        self.socket = connect(where, limit_s)
         self.sequence, self.step_sequence, self.at, self.partial = 0, 0, 0, b""
         self.pieces, self.samples, self.results, self.raw = [], [], [], b""
 

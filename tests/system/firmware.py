@@ -22,17 +22,32 @@ class Silence(Exception):
     """The firmware did not answer in time, or ended."""
 
 
+def is_emulated(where):
+    return "null" in COMMANDS[where]
+
+
+def line(link):
+    """The emulator's options for the link's line. A socket is as make monitor LINK= has it, the others are plain."""
+    if link == "pty":
+        return ["-serial", "pty"]
+    if link.startswith("tcp:"):
+        return ["-serial", f"tcp:127.0.0.1:{link[4:]},server=on,wait=off,nodelay=on"]
+    return ["-chardev", f"socket,id=link,path={link},server=on,wait=off,mux=on", "-serial", "chardev:link", "-echr", "256"]
+
+
 class Firmware:
     """One running image. Every wait has an end; the child never outlives the test."""
 
     def __init__(self, where="board", extra=(), limit_s=60.0, link=None):
-        """link: a path; the firmware's link listens on a socket there."""
+        """link: a path, the firmware's link listens on a socket there; of an emulator tcp:PORT of this machine as well, or
+        pty, whose name is then in pty."""
         # Options of the emulator go before -kernel, which is the last one; its second line is the link.
         command = COMMANDS[where]
         command = command[:1] + list(extra) + command[1:]
         environment = dict(os.environ)
-        if link and "null" in command:
-            command[command.index("null")] = f"unix:{link},server=on,wait=off"
+        if link and is_emulated(where):
+            null = command.index("null")
+            command[null - 1:null + 1] = line(link)
         elif link:
             environment["SQUEAL_LINK"] = f"unix:{link}"
         self.limit_s = limit_s
@@ -42,6 +57,7 @@ class Firmware:
         os.set_blocking(self.process.stdin.fileno(), False)
         self.input, self.lines, self.partial = b"", [], b""
         self.body, self.notices, self.samples = [], [], []
+        self.pty = None
         self.ask("echo off")
 
     def __enter__(self):
@@ -85,6 +101,8 @@ class Firmware:
                 line = self.lines.pop(0)
                 if re.match(r"(ok|error) ", line):
                     return line
+                if line.startswith("char device redirected to "):
+                    self.pty = line.split()[4]
                 if line.startswith("- "):
                     self.body.append(line[2:])
                 elif line.startswith("! "):
