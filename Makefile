@@ -28,8 +28,8 @@ MAKEFILES_READ := $(MAKEFILE_LIST)
 SOURCES       := $(filter-out src/base/mem.c,$(wildcard $(addprefix src/,$(addsuffix /*.c,base model analysis sim protocol))))
 SOURCES_BOARD := $(sort $(BOARD_SOURCES)) boards/$(BOARD)/board.c
 SOURCES_IMAGE := $(SOURCES) $(wildcard src/app/*.c) $(SOURCES_BOARD)
-SOURCES_TOOL  := $(filter src/base/% src/model/% src/analysis/%,$(SOURCES)) $(wildcard tools/squeal/*.c)
-SOURCES_MERIT := $(filter-out src/protocol/%,$(SOURCES)) tools/squeal/csv.c tools/squeal/fields.c $(wildcard tests/merit/*.c)
+SOURCES_TOOL  := $(SOURCES) $(wildcard tools/squeal/*.c tools/squeal/*/*.c)
+SOURCES_MERIT := $(filter-out src/protocol/%,$(SOURCES)) $(addprefix tools/squeal/support/,csv.c fields.c) $(wildcard tests/merit/*.c)
 UNIT_TESTS    := $(filter-out tests/unit/platform_host.c,$(wildcard tests/unit/*.c))
 
 OUT_BOARD  := build/$(BOARD)
@@ -37,7 +37,7 @@ IMAGE      := $(OUT_BOARD)/squeal$(BOARD_SUFFIX)
 UNIT_IMAGE := $(OUT_BOARD)/unit$(BOARD_SUFFIX)
 PROBE      := $(OUT_BOARD)/probe$(BOARD_SUFFIX)
 UNIT_HOST  := build/unit/host
-TOOL       := build/tools/squeal-tool
+TOOL       := build/tools/squeal
 ORACLE     := build/tests/oracle
 CAMPAIGN   := build/tests/frames
 MERIT      := build/tests/merit
@@ -78,7 +78,8 @@ build/tools/%.o: %.c
 	$(call say,CC,$@)
 	$(Q)mkdir -p $(@D)
 	$(Q)$(CC) $(CFLAGS_HOSTED) $(CFLAGS_EXTRA) -c $< -o $@
-build/tools/tests/merit/%.o: CFLAGS_EXTRA := -I.
+build/tools/tools/%.o: CFLAGS_EXTRA := -Itools
+build/tools/tests/merit/%.o: CFLAGS_EXTRA := -I. -Itools
 
 # The compiler must not turn the body of memcpy into a call of memcpy.
 $(OUT_BOARD)/src/base/mem.o: CFLAGS_EXTRA := -fno-tree-loop-distribute-patterns
@@ -138,7 +139,7 @@ SEED       ?= 1
 COUNT      ?= 10000
 
 run: $(IMAGE) $(TOOL) ## run the demonstration and the map, results in build/run (POINTS= of the map along an axis, 0: none)
-	$(Q)$(TOOL) run --board $(BOARD) --out build/run $(if $(POINTS),--points $(POINTS)) -- $(COMMAND)
+	$(Q)$(TOOL) demo --board $(BOARD) --out build/run $(if $(POINTS),--points $(POINTS)) -- $(COMMAND)
 
 monitor: $(IMAGE) ## talk to the firmware in this terminal (LINK= a path: the link listens on a socket there)
 	@echo "Ctrl-C leaves. The firmware echoes; type help and Enter."

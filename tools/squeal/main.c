@@ -1,9 +1,9 @@
 /* squeal: the host's side of the firmware. It only talks to the console; what a brake does is computed on the device.
  */
-#include "children.h"
-#include "golden.h"
-#include "options.h"
-#include "story.h"
+#include "squeal/golden/golden.h"
+#include "squeal/story/story.h"
+#include "squeal/support/children.h"
+#include "squeal/support/options.h"
 
 #include <errno.h>
 #include <stdio.h>
@@ -12,10 +12,10 @@
 static const struct {
     const char *name;
     int (*run)(int argc, char **argv);
-} subcommands[] = {{"golden", golden_main}, {"run", story_main}};
+} subcommands[] = {{"golden", golden_main}, {"demo", story_main}};
 
-static const char help[] = "usage: squeal-tool golden --cases IN.csv --out OUT [options] -- FIRMWARE...\n"
-                           "       squeal-tool run --board NAME --out DIRECTORY [options] -- FIRMWARE...\n"
+static const char help[] = "usage: squeal golden --cases IN.csv --out OUT [options] -- FIRMWARE...\n"
+                           "       squeal demo --board NAME --out DIRECTORY [options] -- FIRMWARE...\n"
                            "\n"
                            "FIRMWARE... is the command line that starts a firmware with its console on standard\n"
                            "input and output: a host build, or an emulator with its image.\n"
@@ -30,15 +30,15 @@ static const char help[] = "usage: squeal-tool golden --cases IN.csv --out OUT [
                            "  --jobs J         firmware processes at a time (2)\n"
                            "  --limit S        seconds that one answer may take (600)\n"
                            "\n"
-                           "run     has the device tell its story; writes samples, pictures, sound and a record\n"
+                           "demo    has the device tell its story; writes samples, pictures, sound and a record\n"
                            "  --board NAME     name of the board, for the record\n"
                            "  --acts LIST      acts to run, such as 2 or 1,3,5 (1,2,3,4,5)\n"
                            "  --points N       points of the map along each axis; 0 for no map (20)\n"
                            "  --limit S        seconds that one answer may take (600)\n"
                            "\n"
                            "examples:\n"
-                           "  squeal-tool golden --cases tests/golden/paper.csv --out paper.csv -- build/host/squeal\n"
-                           "  squeal-tool run --board host --out build/host/run -- build/host/squeal\n"
+                           "  squeal golden --cases tests/golden/paper.csv --out paper.csv -- build/host/squeal\n"
+                           "  squeal demo --board host --out build/host/run -- build/host/squeal\n"
                            "\n"
                            "exit codes: 0 all went well, 1 something failed or differed, 2 the command line is wrong\n";
 
