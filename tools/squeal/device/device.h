@@ -1,0 +1,168 @@
+/* A device at the other end of a port: questions that wait for their answer, what it can do as it says itself, and the
+ * samples that it sends.
+ *
+ *     struct device *device = device_open("qemu:mps2-an386", 5.0, problem);
+ *     const int n1 = device_find(device, DEVICE_PARAMS, "N1");
+ *     if (device_set(device, &(struct device_value){n1, 3000.0f}, 1, true, NULL) != DEVICE_OK) {
+ *         puts(device_problem(device));
+ *     }
+ *
+ * A question without an answer is asked again, about once a second, until the limit has passed; the link bears that. All
+ * text that comes from the device is printable ASCII when it gets out of here. Numbers of rows are those of the device's own
+ * tables, which a newer firmware may have more of than this program. */
+#ifndef SQUEAL_DEVICE_H
+#define SQUEAL_DEVICE_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include "protocol/master.h"
+#include "sim/input.h"
+
+struct device;
+struct port;
+
+enum { DEVICE_PROBLEM_MAX = 512, DEVICE_SIGNALS_MAX = 32 };
+
+enum device_result {
+    DEVICE_OK,
+    DEVICE_REFUSED, /* the device said no: device_problem() in words, device_refusal() in numbers; all goes on */
+    DEVICE_LOST     /* the port is gone or silent: device_problem() says so; only device_close() is left */
+};
+
+/* --- The connection ----------------------------------------------------------------------------------------------- */
+
+/* Opens the port and says HELLO, both within limit_s, which also holds for every question after it. NULL with the problem:
+ * the port cannot be opened, nobody answers there, or what answers speaks another major version. */
+struct device *device_open(const char *port, double limit_s, char problem[DEVICE_PROBLEM_MAX]);
+void device_close(struct device *device);
+
+/* Why the last question failed, one line that names the port. */
+const char *device_problem(const struct device *device);
+const struct master_refusal *device_refusal(const struct device *device);
+
+/* For poll() and its like: when its fd is readable, device_listen(device, 0.0) takes what came. */
+const struct port *device_port(const struct device *device);
+
+struct device_identity {
+    unsigned major, minor;                                      /* of the link */
+    unsigned params_version, signals_version, commands_version; /* of the tables */
+    bool is_emulated, has_fpu;
+    char version[65], build[129], board[97], core[65];
+};
+
+const struct device_identity *device_identity(const struct device *device);
+
+/* --- What it can do: the dictionary ------------------------------------------------------------------------------- */
+
+enum device_table { DEVICE_PARAMS, DEVICE_SIGNALS, DEVICE_PRESETS, DEVICE_TABLES };
+enum device_kind { DEVICE_REAL, DEVICE_WHOLE, DEVICE_CHOICE, DEVICE_BITS };
+enum device_change { DEVICE_LIVE, DEVICE_RESTART, DEVICE_READ_ONLY };
+
+struct device_row {
+    unsigned id;
+    enum device_kind kind;
+    enum device_change change;
+    float standard, low, high;
+    char symbol[97], unit[193], help[597]; /* unit of a choice: its names, bars between */
+};
+
+/* Reads a table, or all of them with DEVICE_TABLES, that have not been read. What needs a table reads it by itself. */
+enum device_result device_read_table(struct device *device, enum device_table table);
+
+/* Rows of a table, 0 if it could not be read; a row of it, NULL beyond the last one. */
+size_t device_count(struct device *device, enum device_table table);
+const struct device_row *device_row(struct device *device, enum device_table table, size_t index);
+
+/* The number of the row with that symbol; -1 if there is none, which is then the problem, with names that are like it. */
+int device_find(struct device *device, enum device_table table, const char *symbol);
+
+/* Text to a value of a parameter and back: a name for a choice, else a number. Parsing gives false with the problem if it is
+ * no such, or outside the row's range. A formatted float reads back as the same bits. */
+bool device_parse(struct device *device, size_t param, const char *text, float *value);
+enum { DEVICE_TEXT_MAX = 64 };
+void device_format(const struct device_row *row, float value, char out[DEVICE_TEXT_MAX]);
+
+/* --- The set ------------------------------------------------------------------------------------------------------ */
+
+struct device_value {
+    int index; /* of the parameter */
+    float value;
+};
+
+struct device_commit {
+    uint32_t crc; /* of the set now in force */
+    uint32_t generation;
+    bool was_reset; /* back to step 0 */
+};
+
+/* A parameter in force; a signal as it is now, a hash as the number that it is. */
+enum device_result device_get(struct device *device, int param, float *value);
+enum device_result device_look(struct device *device, int signal, double *value);
+
+/* Puts all the values into force or none. Without may_reset a change that needs a restart is refused. commit may be NULL. */
+enum device_result device_set(struct device *device, const struct device_value *values, size_t count, bool may_reset,
+                              struct device_commit *commit);
+
+/* A named set into force: stops and resets. */
+enum device_result device_preset(struct device *device, int preset, struct device_commit *commit);
+
+/* --- Stepping ----------------------------------------------------------------------------------------------------- */
+
+/* Free run; stop; back to step 0 with the same set. step: where the plant stands. */
+enum device_result device_run(struct device *device, uint64_t *step);
+enum device_result device_stop(struct device *device, uint64_t *step);
+enum device_result device_reset(struct device *device, uint64_t *step);
+
+/* Makes count steps from where the plant stands, with the demand held from here on; NULL: all as it was. The limit is that
+ * of one reply. More than a request may carry are made by several, the demand with the first. */
+enum device_result device_step(struct device *device, uint64_t count, const struct input_demand *demand,
+                               struct master_state *state);
+
+/* Holds a demand from its step on, ahead of time. */
+enum device_result device_input(struct device *device, const struct input_demand *demand, bool *was_clamped);
+
+struct device_status {
+    unsigned state; /* 0 ready, 1 run, 2 fault */
+    uint64_t step;
+    uint32_t generation, hash, set_crc;
+    float step_s, sigma;
+    uint32_t events, caps, saturations, lifted, gap_held, ticks, overruns, shed;
+    uint32_t inputs, inputs_late, inputs_clamped, inputs_refused;
+    uint32_t offered, sent, dropped, waiting; /* samples */
+    uint32_t frames, damaged, too_long, bad_cobs, too_short, bad_crc, garbage_bytes, refused;
+};
+
+enum device_result device_status(struct device *device, struct device_status *status);
+
+enum device_result device_ping(struct device *device, uint64_t word, uint64_t *echo);
+
+/* --- Samples ------------------------------------------------------------------------------------------------------ */
+
+struct device_sample {
+    uint64_t step;
+    uint32_t missing;  /* samples lost since the one before */
+    size_t count;      /* of signals */
+    const int *signal; /* which they are */
+    double value[DEVICE_SIGNALS_MAX]; /* numbers for names; a hash as the number that it is */
+};
+
+typedef void (*device_listener)(void *context, const struct device_sample *sample);
+
+/* Who is told of every sample, whatever the device is asked meanwhile. NULL: nobody. */
+void device_on_sample(struct device *device, device_listener listener, void *context);
+
+struct device_stream {
+    uint32_t every, smallest; /* steps: as asked, and the least that the line can carry in free run */
+    uint32_t bytes;           /* of a sample on the line */
+};
+
+/* Samples of these signals each every-th step; every 0 ends them, after the last one. reply may be NULL. */
+enum device_result device_stream(struct device *device, const int *signals, size_t count, uint32_t every,
+                                 struct device_stream *reply);
+
+/* Takes what comes by itself for so long; 0.0: what is there already. */
+enum device_result device_listen(struct device *device, double seconds);
+
+#endif
