@@ -78,7 +78,7 @@ build/tools/%.o: %.c
 	$(call say,CC,$@)
 	$(Q)mkdir -p $(@D)
 	$(Q)$(CC) $(CFLAGS_HOSTED) $(CFLAGS_EXTRA) -c $< -o $@
-build/tools/tools/%.o: CFLAGS_EXTRA := -Itools
+build/tools/tools/%.o: CFLAGS_EXTRA := -Itools -D_XOPEN_SOURCE=700
 build/tools/tests/merit/%.o: CFLAGS_EXTRA := -I. -Itools
 
 # The compiler must not turn the body of memcpy into a call of memcpy.

@@ -220,20 +220,9 @@ enum session_result session_command(struct session *session, double limit_s, con
     return result;
 }
 
-/* In the child: becomes the firmware, or reports over status why it cannot. */
-static void become(char *const argv[], int input, int output, int errors, int status)
+static bool pipes_make(int pipes[3][2])
 {
-    if (dup2(input, STDIN_FILENO) >= 0 && dup2(output, STDOUT_FILENO) >= 0 && dup2(errors, STDERR_FILENO) >= 0) {
-        (void)execvp(argv[0], argv);
-    }
-    const int reason = errno;
-    const ssize_t ignored = write(status, &reason, sizeof reason);
-    _exit(ignored > 0 ? 126 : 127);
-}
-
-static bool pipes_make(int pipes[4][2])
-{
-    for (int i = 0; i < 4; i++) {
+    for (int i = 0; i < 3; i++) {
         if (pipe(pipes[i]) != 0) {
             return false;
         }
@@ -245,8 +234,7 @@ static bool pipes_make(int pipes[4][2])
 
 enum session_result session_open(struct session *session, char *const argv[], session_listener listener, void *context)
 {
-    int pipes[4][2]; /* to its stdin, from its stdout, from its stderr, and how exec went */
-    int reason = 0;
+    int pipes[3][2]; /* to its stdin, from its stdout, from its stderr */
     enum session_result result = SESSION_REFUSED;
 
     memset(session, 0, sizeof *session);
@@ -256,24 +244,16 @@ enum session_result session_open(struct session *session, char *const argv[], se
     if (!pipes_make(pipes)) {
         return lose(session, "pipe: %s", strerror(errno));
     }
-    session->pid = children_fork(true);
-    if (session->pid == 0) {
-        become(argv, pipes[0][0], pipes[1][1], pipes[2][1], pipes[3][1]);
-    }
+    session->pid = children_start(argv, pipes[0][0], pipes[1][1], pipes[2][1]);
+    const int reason = errno;
     (void)close(pipes[0][0]);
     (void)close(pipes[1][1]);
     (void)close(pipes[2][1]);
-    (void)close(pipes[3][1]);
     session->input = pipes[0][1];
     session->output = pipes[1][0];
     session->errors = pipes[2][0];
-    const ssize_t count = session->pid > 0 ? read(pipes[3][0], &reason, sizeof reason) : 0;
-    (void)close(pipes[3][0]);
     if (session->pid < 0) {
         session->pid = 0;
-        return lose(session, "fork: %s", strerror(errno));
-    }
-    if (count > 0) {
         return lose(session, reason == ENOENT ? "%s: command not found" : "%s: cannot be started", argv[0]);
     }
     (void)fcntl(session->input, F_SETFL, O_NONBLOCK);

@@ -142,9 +142,9 @@ enum device_result device_ping(struct device *device, uint64_t word, uint64_t *e
 
 struct device_sample {
     uint64_t step;
-    uint32_t missing;  /* samples lost since the one before */
-    size_t count;      /* of signals */
-    const int *signal; /* which they are */
+    uint32_t missing;                 /* samples lost since the one before */
+    size_t count;                     /* of signals */
+    const int *signal;                /* which they are */
     double value[DEVICE_SIGNALS_MAX]; /* numbers for names; a hash as the number that it is */
 };
 

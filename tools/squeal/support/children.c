@@ -2,13 +2,17 @@
 #include "squeal/support/children.h"
 
 #include <errno.h>
+#include <fcntl.h>
 #include <signal.h>
 #include <stddef.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
 #include <sys/wait.h>
 #include <time.h>
 #include <unistd.h>
 
-enum { CHILDREN_MAX = 64, POLL_MS = 5, TERMINATION_MS = 500 };
+enum { CHILDREN_MAX = 64, POLL_MS = 5, TERMINATION_MS = 500, PATH_SIZE = 256 };
 
 struct child {
     volatile pid_t pid; /* 0 marks a free place */
@@ -19,9 +23,24 @@ static const int ending_signals[] = {SIGINT, SIGTERM, SIGHUP};
 static struct child children[CHILDREN_MAX];
 static volatile sig_atomic_t interrupt_is_held, interrupt_is_noted;
 
+static struct {
+    char path[PATH_SIZE], file[PATH_SIZE];
+    volatile sig_atomic_t is_there;
+} folder;
+
 static void child_kill(const struct child *child, int number)
 {
     (void)kill(child->own_group ? -child->pid : child->pid, number);
+}
+
+/* Only calls that are safe inside a signal handler. */
+void children_remove_folder(void)
+{
+    if (folder.is_there != 0) {
+        folder.is_there = 0;
+        (void)unlink(folder.file);
+        (void)rmdir(folder.path);
+    }
 }
 
 /* Only calls that are safe inside a signal handler. A worker is asked to end, since it has a child of its own to end.
@@ -42,6 +61,7 @@ static void ending_handler(int number)
             (void)waitpid(children[i].pid, NULL, 0);
         }
     }
+    children_remove_folder();
     (void)signal(number, SIG_DFL);
     (void)raise(number);
 }
@@ -102,6 +122,7 @@ pid_t children_fork(bool own_group)
         for (int i = 0; i < CHILDREN_MAX; i++) {
             children[i].pid = 0;
         }
+        folder.is_there = 0;
         if (own_group) {
             (void)setpgid(0, 0);
         }
@@ -116,6 +137,69 @@ pid_t children_fork(bool own_group)
     }
     (void)sigprocmask(SIG_SETMASK, &before, NULL);
     return pid;
+}
+
+/* In the child: becomes the program, or reports over status why it cannot. */
+static void become(char *const argv[], int input, int output, int errors, int status)
+{
+    if (dup2(input, STDIN_FILENO) >= 0 && dup2(output, STDOUT_FILENO) >= 0 && dup2(errors, STDERR_FILENO) >= 0) {
+        (void)execvp(argv[0], argv);
+    }
+    const int reason = errno;
+    const ssize_t ignored = write(status, &reason, sizeof reason);
+    _exit(ignored > 0 ? 126 : 127);
+}
+
+pid_t children_start(char *const argv[], int input, int output, int errors)
+{
+    int status[2], reason = 0;
+
+    if (pipe(status) != 0) {
+        return -1;
+    }
+    (void)fcntl(status[0], F_SETFD, FD_CLOEXEC);
+    (void)fcntl(status[1], F_SETFD, FD_CLOEXEC);
+    const pid_t pid = children_fork(true);
+    if (pid == 0) {
+        become(argv, input, output, errors, status[1]);
+    }
+    reason = errno;
+    (void)close(status[1]);
+    /* exec closes the other end, and nothing comes. */
+    const ssize_t count = pid > 0 ? read(status[0], &reason, sizeof reason) : -1;
+    (void)close(status[0]);
+    if (count == 0) {
+        return pid;
+    }
+    (void)children_wait(pid);
+    errno = reason;
+    return -1;
+}
+
+bool children_has_ended(pid_t pid)
+{
+    siginfo_t info = {0};
+
+    return waitid(P_PID, (id_t)pid, &info, WEXITED | WNOHANG | WNOWAIT) == 0 && info.si_pid == pid;
+}
+
+bool children_make_folder(char *path)
+{
+    sigset_t before;
+
+    if (strlen(path) + sizeof "/" CHILDREN_LINK > PATH_SIZE) {
+        errno = ENAMETOOLONG;
+        return false;
+    }
+    signals_block(&before);
+    const bool is_made = mkdtemp(path) != NULL;
+    if (is_made) {
+        (void)snprintf(folder.path, PATH_SIZE, "%s", path);
+        (void)snprintf(folder.file, PATH_SIZE, "%s/" CHILDREN_LINK, path);
+        folder.is_there = 1;
+    }
+    (void)sigprocmask(SIG_SETMASK, &before, NULL);
+    return is_made;
 }
 
 void children_hold_interrupt(bool is_held)
