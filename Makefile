@@ -38,6 +38,7 @@ UNIT_IMAGE := $(OUT_BOARD)/unit$(BOARD_SUFFIX)
 PROBE      := $(OUT_BOARD)/probe$(BOARD_SUFFIX)
 UNIT_HOST  := build/unit/host
 TOOL       := build/tools/squeal
+BOARDS_LIST := build/tools/boards
 ORACLE     := build/tests/oracle
 CAMPAIGN   := build/tests/frames
 MERIT      := build/tests/merit
@@ -58,7 +59,7 @@ $(shell mkdir -p build && echo '$(BUILD_ID)' >build/build_id)
 endif
 
 # --- Rules ----------------------------------------------------------------------------------------------------------
-.PHONY: all run monitor test golden oracle detector noise frames debug check size clean help setup other-images host-image command
+.PHONY: all run tool monitor test golden oracle detector noise frames debug check size clean help setup other-images host-image command
 .DELETE_ON_ERROR:
 
 all: $(IMAGE) ## build the firmware for BOARD (default mps2-an386)
@@ -100,9 +101,18 @@ $(UNIT_HOST): $(OBJECTS_HOST)
 	$(call say,LD,$@)
 	$(Q)$(CC) $(SANITIZE) $^ -o $@
 
-$(TOOL): $(OBJECTS_TOOL)
+$(TOOL): $(OBJECTS_TOOL) | $(BOARDS_LIST)
 	$(call say,LD,$@)
 	$(Q)$(CC) $^ -o $@ -lm
+
+# How the tool starts each board: written anew each time, changed only when it differs.
+$(BOARDS_LIST): boards-list
+	$(Q)mkdir -p $(@D)
+	$(Q)for board in $(BOARDS); do $(MAKE) -s --no-print-directory BOARD=$$board LINK=@LINK@ ROOT=$(CURDIR)/ command || exit; \
+	done >$@.new
+	$(Q)if cmp -s $@ $@.new; then rm $@.new; else mv $@.new $@; fi
+.PHONY: boards-list
+boards-list:
 
 $(CAMPAIGN): $(OBJECTS_LINE)
 	$(call say,LD,$@)
@@ -120,7 +130,8 @@ $(ORACLE): $(wildcard tests/oracle/*.[ch] tests/oracle/*.def) Makefile | setup
 	$(Q)$(CC) -std=c99 -O2 -ffp-contract=off -Wall -Wextra -D_POSIX_C_SOURCE=200809L -o $@ $(filter %.c,$^) -lm
 
 # --- Use ------------------------------------------------------------------------------------------------------------
-COMMAND    := $(strip $(BOARD_RUN) $(IMAGE))
+ROOT       ?=
+COMMAND    := $(strip $(BOARD_RUN) $(ROOT)$(IMAGE))
 CASES      ?= tests/golden/paper.csv
 OUT        ?= build/golden
 ARITH      ?= f32
@@ -182,6 +193,8 @@ test: $(IMAGE) $(UNIT_IMAGE) $(PROBE) $(UNIT_HOST) $(TOOL) $(ORACLE) $(CAMPAIGN)
 	$(Q)COMMANDS="$$(for board in $(BOARDS); do $(MAKE) -s --no-print-directory BOARD=$$board command; done)"; export COMMANDS; \
 	BOARD=$(BOARD) BOARD_RUN="$(BOARD_RUN)" IMAGE=$(IMAGE) UNIT_IMAGE=$(UNIT_IMAGE) PROBE=$(PROBE) \
 	    UNIT_HOST=$(UNIT_HOST) HOST_IMAGE=build/host/squeal TOOL=$(TOOL) ORACLE=$(CURDIR)/$(ORACLE) CAMPAIGN=$(CAMPAIGN) MERIT=$(CURDIR)/$(MERIT) tools/tap_summary $(wildcard tests/*.t tests/system/*.t)
+
+tool: $(TOOL) ## build the host tool, build/tools/squeal; see its --help
 
 host-image:
 	$(Q)$(MAKE) --no-print-directory BOARD=host all

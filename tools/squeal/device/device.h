@@ -18,7 +18,9 @@
 #include <stdint.h>
 
 #include "protocol/master.h"
+#include "protocol/messages.h"
 #include "sim/input.h"
+#include "squeal/support/printable.h"
 
 struct device;
 struct port;
@@ -45,27 +47,36 @@ const struct master_refusal *device_refusal(const struct device *device);
 /* For poll() and its like: when its fd is readable, device_listen(device, 0.0) takes what came. */
 const struct port *device_port(const struct device *device);
 
+/* Characters that a text of so many bytes may take. */
+#define DEVICE_TEXT(width) (PRINTABLE_GROWTH * (width) + 1)
+
 struct device_identity {
     unsigned major, minor;                                      /* of the link */
     unsigned params_version, signals_version, commands_version; /* of the tables */
     bool is_emulated, has_fpu;
-    char version[65], build[129], board[97], core[65];
+    char version[DEVICE_TEXT(LINK_VERSION_WIDTH)], build[DEVICE_TEXT(LINK_BUILD_WIDTH)];
+    char board[DEVICE_TEXT(LINK_BOARD_WIDTH)], core[DEVICE_TEXT(LINK_CORE_WIDTH)];
 };
 
 const struct device_identity *device_identity(const struct device *device);
 
 /* --- What it can do: the dictionary ------------------------------------------------------------------------------- */
 
-enum device_table { DEVICE_PARAMS, DEVICE_SIGNALS, DEVICE_PRESETS, DEVICE_TABLES };
-enum device_kind { DEVICE_REAL, DEVICE_WHOLE, DEVICE_CHOICE, DEVICE_BITS };
-enum device_change { DEVICE_LIVE, DEVICE_RESTART, DEVICE_READ_ONLY };
+enum device_table {
+    DEVICE_PARAMS = LINK_PARAMS,
+    DEVICE_SIGNALS = LINK_SIGNALS,
+    DEVICE_PRESETS = LINK_PRESETS,
+    DEVICE_TABLES = LINK_TABLE_COUNT
+};
 
 struct device_row {
     unsigned id;
-    enum device_kind kind;
-    enum device_change change;
+    unsigned kind;   /* enum link_kind */
+    unsigned change; /* enum link_change */
     float standard, low, high;
-    char symbol[97], unit[193], help[597]; /* unit of a choice: its names, bars between */
+    char symbol[DEVICE_TEXT(LINK_SYMBOL_WIDTH)];
+    char unit[DEVICE_TEXT(LINK_UNIT_WIDTH)]; /* of a choice: its names, bars between */
+    char help[DEVICE_TEXT(LINK_HELP_WIDTH)];
 };
 
 /* Reads a table, or all of them with DEVICE_TABLES, that have not been read. What needs a table reads it by itself. */
