@@ -8,6 +8,7 @@
 #include <string.h>
 
 #define RETRY_S 1.0
+#define START_S 30.0
 
 enum { READ_SIZE = 16384, TEXT_SIZE = 160 };
 
@@ -43,6 +44,7 @@ void device_fail(struct device *device, const char *format, ...)
 static enum device_result lose_port(struct device *device)
 {
     (void)snprintf(device->problem, sizeof device->problem, "%s", device->port.problem);
+    device->is_lost = true;
     return DEVICE_LOST;
 }
 
@@ -112,7 +114,8 @@ static bool has_more(const struct device *device)
 
 static enum device_result fail_silent(struct device *device)
 {
-    device_fail(device, "no answer for %g s", device->limit_s);
+    device_fail(device, "no answer for %g s; a longer --limit waits longer", device->limit_s);
+    device->is_lost = true;
     return DEVICE_LOST;
 }
 
@@ -158,6 +161,7 @@ static enum device_result settle(struct device *device, struct bytes_reader *rep
     if (answer.size != reply_size(type)) {
         device_fail(device, "answers request 0x%02x with %zu bytes instead of %zu", type, answer.size,
                     reply_size(type));
+        device->is_lost = true;
         return DEVICE_LOST;
     }
     *reply = (struct bytes_reader){.bytes = answer.payload, .size = answer.size};
@@ -250,7 +254,7 @@ static void tell_stranger(struct device *device)
     }
 }
 
-static bool greet(struct device *device)
+static bool greet(struct device *device, double limit_s)
 {
     uint8_t bytes[2];
     struct bytes_writer request = {.bytes = bytes, .capacity = sizeof bytes};
@@ -258,7 +262,10 @@ static bool greet(struct device *device)
 
     bytes_put_u8(&request, LINK_MAJOR);
     bytes_put_u8(&request, LINK_MINOR);
+    /* What was started a moment ago, an emulator on a busy machine at that, may take its time. */
+    device->limit_s = device->port.pid != 0 && limit_s < START_S ? START_S : limit_s;
     const enum device_result result = device_ask(device, LINK_HELLO, &request, &reply);
+    device->limit_s = limit_s;
     if (result == DEVICE_OK) {
         read_identity(device, &reply);
         return true;
@@ -280,11 +287,10 @@ struct device *device_open(const char *port, double limit_s, char problem[DEVICE
         (void)snprintf(problem, DEVICE_PROBLEM_MAX, "out of memory");
         return NULL;
     }
-    device->limit_s = limit_s;
     text_init(&device->out, device->out_bytes, sizeof device->out_bytes);
     master_init(&device->master);
     const bool is_open = port_open(&device->port, port);
-    if (is_open && greet(device)) {
+    if (is_open && greet(device, limit_s)) {
         return device;
     }
     (void)snprintf(problem, DEVICE_PROBLEM_MAX, "%s", is_open ? device->problem : device->port.problem);
@@ -306,5 +312,6 @@ void device_close(struct device *device)
 
 const char *device_problem(const struct device *device) { return device->problem; }
 const struct master_refusal *device_refusal(const struct device *device) { return &device->refusal; }
+bool device_is_lost(const struct device *device) { return device->is_lost; }
 const struct port *device_port(const struct device *device) { return &device->port; }
 const struct device_identity *device_identity(const struct device *device) { return &device->identity; }

@@ -44,6 +44,9 @@ void device_close(struct device *device);
 const char *device_problem(const struct device *device);
 const struct master_refusal *device_refusal(const struct device *device);
 
+/* Has the port gone, or fallen silent? Where a function gives no result but a row, this tells what kind of problem it was. */
+bool device_is_lost(const struct device *device);
+
 /* For poll() and its like: when its fd is readable, device_listen(device, 0.0) takes what came. */
 const struct port *device_port(const struct device *device);
 

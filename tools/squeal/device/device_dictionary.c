@@ -80,15 +80,24 @@ const struct device_row *device_row(struct device *device, enum device_table tab
     return index < device_count(device, table) ? &device->tables[table][index] : NULL;
 }
 
-/* Does one of the two begin with the other, but for upper and lower case? */
-static bool is_like(const char *a, const char *b)
+/* Letters in which the two begin alike, but for upper and lower case. */
+static size_t common_length(const char *a, const char *b)
 {
-    for (; *a != '\0' && *b != '\0'; a++, b++) {
-        if ((*a | 0x20) != (*b | 0x20)) {
-            return false;
-        }
+    size_t length = 0;
+
+    while (a[length] != '\0' && (a[length] | 0x20) == (b[length] | 0x20)) {
+        length++;
     }
-    return true;
+    return length;
+}
+
+static bool is_like(const char *symbol, const char *text)
+{
+    const size_t common = common_length(symbol, text);
+
+    return common >= 2 ||
+           (common == 1 && (symbol[1] == '\0' || text[1] == '\0') && strlen(symbol) + strlen(text) < 4) ||
+           strstr(symbol, text) != NULL;
 }
 
 static void fail_unknown(struct device *device, enum device_table table, const char *symbol)
@@ -173,8 +182,9 @@ bool device_parse(struct device *device, size_t param, const char *text, float *
     }
     device_format(row, row->low, low);
     device_format(row, row->high, high);
-    device_fail(device, "%s=%s: a %s of %s .. %s %s is wanted", row->symbol, shown,
-                row->kind == LINK_WHOLE ? "whole number" : "number", low, high, row->unit);
+    device_fail(device, "%s=%s: a %s of %s .. %s%s%s is wanted", row->symbol, shown,
+                row->kind == LINK_WHOLE ? "whole number" : "number", low, high, row->unit[0] == '1' ? "" : " ",
+                row->unit[0] == '1' ? "" : row->unit);
     return false;
 }
 

@@ -32,6 +32,7 @@ struct device {
 
     struct master_refusal refusal;
     char problem[DEVICE_PROBLEM_MAX];
+    bool is_lost;
 };
 
 /* Asks and waits. The fields of the reply, whose length has been checked, are in *reply; it may be NULL. */

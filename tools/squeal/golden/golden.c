@@ -1,7 +1,9 @@
 /* The subcommand golden: options, the table that is written, the closing line. */
 #include "squeal/golden/golden.h"
 
-#include "squeal/support/options.h"
+#include "squeal/exits.h"
+#include "squeal/subcommands.h"
+#include "squeal/support/arguments.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -91,30 +93,34 @@ static int plan_run(const struct golden_plan *plan, const char *path)
     return score.failed == 0 ? EXIT_OK : EXIT_FAILED;
 }
 
-int golden_main(int argc, char **argv)
+static const char *text_or(const struct arguments *arguments, const char *name, const char *standard)
 {
-    struct golden_plan plan = {.spp = "64", .normal = "rk4", .method = "event", .arith = "f32"};
-    char problem[CSV_PROBLEM_MAX], path[PATH_SIZE];
-    const char *cases = NULL, *out = NULL, *jobs = "2", *limit = "600";
-    long limit_s = 0;
-    const struct option options[] = {
-        {"--cases", &cases, NULL, true},
-        {"--out", &out, NULL, true},
-        {"--spp", &plan.spp, NULL, false},
-        {"--normal", &plan.normal, NULL, false},
-        {"--method", &plan.method, NULL, false},
-        {"--arith", &plan.arith, NULL, false},
-        {"--jobs", &jobs, NULL, false},
-        {"--limit", &limit, NULL, false},
-        {"--asymptotic", NULL, &plan.is_asymptotic, false},
-    };
+    const char *text = arguments_text(arguments, name);
 
-    plan.command = options_read(options, sizeof options / sizeof options[0], argc, argv);
-    if (plan.command == NULL || !options_whole("--spp", plan.spp, 1, SPP_MAX, &plan.steps_per_period) ||
-        !options_whole("--jobs", jobs, 1, JOBS_MAX, &plan.jobs) ||
-        !options_whole("--limit", limit, 1, LIMIT_MAX_S, &limit_s)) {
+    return text != NULL ? text : standard;
+}
+
+int command_golden(const struct arguments *arguments)
+{
+    struct golden_plan plan = {.command = arguments->firmware,
+                               .spp = text_or(arguments, "--spp", "64"),
+                               .normal = text_or(arguments, "--normal", "rk4"),
+                               .method = text_or(arguments, "--method", "event"),
+                               .arith = text_or(arguments, "--arith", "f32"),
+                               .is_asymptotic = arguments_flag(arguments, "--asymptotic")};
+    char problem[CSV_PROBLEM_MAX], path[PATH_SIZE];
+    const char *cases = arguments_need(arguments, "--cases");
+    const char *out = cases != NULL ? arguments_need(arguments, "--out") : NULL;
+    uint64_t limit_s = 600, jobs = 2, spp = 0;
+
+    if (out == NULL || !arguments_has_operands(arguments, 0, 0) ||
+        !arguments_parse_whole("--spp", plan.spp, 1, SPP_MAX, &spp) ||
+        !arguments_whole(arguments, "--jobs", 1, JOBS_MAX, &jobs) ||
+        !arguments_whole(arguments, "--limit", 1, LIMIT_MAX_S, &limit_s)) {
         return EXIT_USAGE;
     }
+    plan.jobs = (long)jobs;
+    plan.steps_per_period = (long)spp;
     plan.limit_s = (double)limit_s;
     if (!csv_read(&plan.cases, cases, problem)) {
         fprintf(stderr, "squeal: %s\n", problem);

@@ -80,8 +80,6 @@ struct golden_score {
     double caps, overruns;
 };
 
-int golden_main(int argc, char **argv);
-
 /* Runs one case. SESSION_LOST means that the session is of no further use; the result has the reason in any case. */
 enum session_result golden_row_run(struct session *session, const struct golden_plan *plan, size_t row,
                                    struct golden_result *result);

@@ -33,7 +33,7 @@ static struct room room_of(const struct map *map, int axis)
 static bool is_there(const struct map_point *point) { return point->line != NULL && !point->is_refused; }
 
 /* The trials of one verdict: place, the four sides of the tile, amplitude. */
-static void tiles_write(FILE *script, const struct map *map, const char *name, enum propensity propensity)
+static void tiles_write(FILE *script, const struct map *map, const char *name, enum detector_propensity propensity)
 {
     const double half[MAP_AXES] = {TILE * room_of(map, 0).half, TILE * room_of(map, 1).half};
 

@@ -19,7 +19,7 @@ struct box {
 
 static struct box box_of(const struct act *act, size_t from, size_t to)
 {
-    const struct sample *first = &act->samples[from];
+    const struct act_sample *first = &act->samples[from];
     struct box box = {first->x_m, first->x_m, first->xd_m_per_s, first->xd_m_per_s};
 
     for (size_t i = from; i < to; i++) {
@@ -62,7 +62,7 @@ static void points_write(FILE *script, const struct act *act, size_t from, size_
                          struct plot_unit speed)
 {
     for (size_t i = from; i < to && i < act->count; i++) {
-        const struct sample *sample = &act->samples[i];
+        const struct act_sample *sample = &act->samples[i];
         if (i > from && sample->step - sample[-1].step > act->every) {
             (void)fputc('\n', script);
         }
@@ -118,7 +118,7 @@ void plot_phase(struct story *story, const struct act *act)
     if (script == NULL) {
         return;
     }
-    const struct sample *last = &act->samples[act->count - 1];
+    const struct act_sample *last = &act->samples[act->count - 1];
     const struct box all = box_of(act, act->start, act->count);
     const struct box end = box_of(act, tail_start, act->count);
     const struct box point = {last->x_m, last->x_m, last->xd_m_per_s, last->xd_m_per_s};

@@ -11,7 +11,7 @@ static void bands_write(FILE *script, const struct act *act)
     size_t start = act->start;
 
     for (size_t i = start + 1; i <= act->count; i++) {
-        const enum propensity propensity = act->samples[start].propensity;
+        const enum detector_propensity propensity = act->samples[start].propensity;
         if (i < act->count && act->samples[i].propensity == propensity) {
             continue;
         }

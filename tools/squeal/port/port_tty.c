@@ -18,11 +18,11 @@ enum { PATH_SIZE = PORT_NAME_MAX, LOOK_AGAIN_MS = 20 };
 
 #define BAUD_DEFAULT 921600L
 
-#define RATES(RATE)                                                                                         \
-    RATE(9600)                                                                                              \
-    RATE(19200)                                                                                             \
-    RATE(38400) RATE(57600) RATE(115200) RATE(230400) RATE(460800) RATE(921600) RATE(1000000) RATE(1500000) \
-        RATE(2000000)
+#define RATES(RATE) \
+    RATE(9600)      \
+    RATE(19200)     \
+    RATE(38400)     \
+    RATE(57600) RATE(115200) RATE(230400) RATE(460800) RATE(921600) RATE(1000000) RATE(1500000) RATE(2000000)
 
 static const struct {
     long baud;

@@ -76,20 +76,20 @@ void map_listen(struct map *map, enum session_line kind, const char *text)
 size_t map_missing(const struct map *map) { return map->side * map->side - map->came; }
 
 /* What |alpha| N = c says of a point. */
-static enum propensity line_propensity(const struct map *map, const struct map_point *point)
+static enum detector_propensity line_propensity(const struct map *map, const struct map_point *point)
 {
     const bool is_above = -point->at[MAP_SLOPE] * point->at[MAP_FORCE] > map->damping_n_s_per_m;
 
     return is_above ? PROPENSITY_SQUEAL : PROPENSITY_QUIET;
 }
 
-static bool is_decided(enum propensity propensity)
+static bool is_decided(enum detector_propensity propensity)
 {
     return propensity == PROPENSITY_SQUEAL || propensity == PROPENSITY_QUIET;
 }
 
 /* Holds a point against a rule; where one of them says neither squeal nor quiet there is nothing to hold. */
-static void rule_count(struct map_rule *rule, enum propensity found, enum propensity said)
+static void rule_count(struct map_rule *rule, enum detector_propensity found, enum detector_propensity said)
 {
     if (is_decided(found) && is_decided(said)) {
         rule->agree += found == said ? 1U : 0U;

@@ -32,7 +32,7 @@ extern const struct map_plan map_plan;
 struct map_point {
     char *line; /* its fields as the device sent them; NULL if it never came */
     double at[MAP_AXES];
-    enum propensity propensity, predicted;
+    enum detector_propensity propensity, predicted;
     bool is_refused; /* a set that the model cannot hold: nothing is known of it but its place */
     bool is_growing; /* at its end, so that its amplitude says little */
     double amplitude_um;
@@ -61,7 +61,7 @@ struct map_rule {
 
 struct map_counts {
     size_t refused;
-    size_t by_propensity[4];   /* by enum propensity, the refused left out */
+    size_t by_propensity[4];   /* by enum detector_propensity, the refused left out */
     size_t growing;            /* of squeal and watch: not yet at the size that they go to */
     double least_um, most_um;  /* amplitude of the squeals that do not grow any more; NaN without any */
     struct map_rule line;      /* squeal where |alpha| N > c */

@@ -121,8 +121,8 @@ static bool prolong(struct story *story, struct act *act)
     if (!play_is_audible(act) || play_is_stop(act) || act->count < act->start + 2 || left_s <= 0.0) {
         return true;
     }
-    const struct sample *first = &act->samples[act->start];
-    const struct sample *last = &act->samples[act->count - 1];
+    const struct act_sample *first = &act->samples[act->start];
+    const struct act_sample *last = &act->samples[act->count - 1];
     const double step_s = (last->t_s - first->t_s) / (last->step - first->step);
     (void)snprintf(line, sizeof line, "step %.0f", ceil(left_s / step_s));
     return play_must(story, line);

@@ -37,13 +37,13 @@ void record_header(struct record *record, const char *text)
     }
 }
 
-bool record_propensity(const char *text, enum propensity *propensity)
+bool record_propensity(const char *text, enum detector_propensity *propensity)
 {
     static const char *const names[] = {"unknown", "quiet", "watch", "squeal"};
 
     for (int i = 0; i < (int)(sizeof names / sizeof names[0]); i++) {
         if (strcmp(text, names[i]) == 0 || (isdigit((unsigned char)text[0]) && atoi(text) == i)) {
-            *propensity = (enum propensity)i;
+            *propensity = (enum detector_propensity)i;
             return true;
         }
     }
@@ -52,7 +52,7 @@ bool record_propensity(const char *text, enum propensity *propensity)
 
 /* Cuts the line at its commas and reads what is kept. False if it has not the columns asked for, or not numbers in
  * them. */
-static bool sample_read(const char *text, struct sample *sample)
+static bool sample_read(const char *text, struct act_sample *sample)
 {
     char copy[512];
     char *cells[COLUMNS];
@@ -82,11 +82,11 @@ static bool sample_read(const char *text, struct sample *sample)
     return record_propensity(cells[COLUMN_PROPENSITY], &sample->propensity);
 }
 
-static bool sample_keep(struct act *act, const struct sample *sample)
+static bool sample_keep(struct act *act, const struct act_sample *sample)
 {
     if (act->count == act->capacity) {
         const size_t capacity = act->capacity == 0 ? 4096 : 2 * act->capacity;
-        struct sample *samples = realloc(act->samples, capacity * sizeof *samples);
+        struct act_sample *samples = realloc(act->samples, capacity * sizeof *samples);
         if (samples == NULL) {
             return false;
         }
@@ -100,7 +100,7 @@ static bool sample_keep(struct act *act, const struct sample *sample)
 void record_sample(struct record *record, const char *text)
 {
     struct act *act = record->act;
-    struct sample sample;
+    struct act_sample sample;
 
     if (act == NULL) {
         return;

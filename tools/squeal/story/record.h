@@ -7,6 +7,7 @@
 #include <stddef.h>
 #include <stdio.h>
 
+#include "sim/detector.h"
 #include "squeal/console/session.h"
 #include "squeal/support/csv.h"
 
@@ -19,12 +20,10 @@
 
 enum { RECORD_ACTS = 5 };
 
-enum propensity { PROPENSITY_UNKNOWN, PROPENSITY_QUIET, PROPENSITY_WATCH, PROPENSITY_SQUEAL };
-
-struct sample {
+struct act_sample {
     double step, t_s, x_m, xd_m_per_s;
     double disc_m_per_s; /* v0 = vr + xd */
-    enum propensity propensity;
+    enum detector_propensity propensity;
 };
 
 /* One act: its samples, and what the device said at its end. */
@@ -34,7 +33,7 @@ struct act {
     bool has_verdict;
     double every;   /* steps from one sample to the next */
     double missing; /* samples that the step column shows to be missing */
-    struct sample *samples;
+    struct act_sample *samples;
     size_t count, capacity;
     size_t start;                   /* first sample of the last run: a reset within the act starts a new one */
     char title[SESSION_LINE_MAX];   /* the first line of the narration, "act <number>: ..." */
@@ -61,7 +60,7 @@ void record_header(struct record *record, const char *text);
 void record_sample(struct record *record, const char *text);
 
 /* Reads a propensity by its name or number; false if it is none. */
-bool record_propensity(const char *text, enum propensity *propensity);
+bool record_propensity(const char *text, enum detector_propensity *propensity);
 
 /* Closes the file; false with the problem set if anything was not written or a sample was not understood. */
 bool record_close(struct record *record);

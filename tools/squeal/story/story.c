@@ -1,11 +1,13 @@
 /* The flow of the story: one conversation, act after act and the map, then sound, pictures and the record. */
 #include "squeal/story/story.h"
 
+#include "squeal/exits.h"
 #include "squeal/plot/plot.h"
 #include "squeal/story/play.h"
 #include "squeal/story/report.h"
 #include "squeal/story/tell.h"
-#include "squeal/support/options.h"
+#include "squeal/subcommands.h"
+#include "squeal/support/arguments.h"
 #include "squeal/support/wav.h"
 
 #include <errno.h>
@@ -129,25 +131,24 @@ static int story_run(struct story *story)
     return story->has_failed ? EXIT_FAILED : EXIT_OK;
 }
 
-int story_main(int argc, char **argv)
+int command_demo(const struct arguments *arguments)
 {
     struct story *story = calloc(1, sizeof *story);
-    const char *acts = "1,2,3,4,5", *points = NULL, *limit = "600";
-    long limit_s = 0, side = MAP_SIDE;
+    const char *acts = arguments_text(arguments, "--acts");
+    uint64_t limit_s = 600, side = MAP_SIDE;
     int code = EXIT_USAGE;
 
     if (story == NULL) {
         fprintf(stderr, "squeal: out of memory\n");
         return EXIT_FAILED;
     }
-    const struct option options[] = {
-        {"--board", &story->board, NULL, true}, {"--out", &story->out, NULL, true}, {"--acts", &acts, NULL, false},
-        {"--points", &points, NULL, false},     {"--limit", &limit, NULL, false},
-    };
-    story->command = options_read(options, sizeof options / sizeof options[0], argc, argv);
-    if (story->command != NULL && acts_read(story, acts) &&
-        (points == NULL || options_whole("--points", points, 0, MAP_SIDE_MAX, &side)) &&
-        options_whole("--limit", limit, 1, 86400, &limit_s)) {
+    story->command = arguments->firmware;
+    story->board = arguments_need(arguments, "--board");
+    story->out = story->board != NULL ? arguments_need(arguments, "--out") : NULL;
+    if (story->out != NULL && arguments_has_operands(arguments, 0, 0) &&
+        acts_read(story, acts != NULL ? acts : "1,2,3,4,5") &&
+        arguments_whole(arguments, "--points", 0, MAP_SIDE_MAX, &side) &&
+        arguments_whole(arguments, "--limit", 1, 86400, &limit_s)) {
         story->limit_s = (double)limit_s;
         story->map.side = (size_t)side;
         code = story_run(story);

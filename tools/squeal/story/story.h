@@ -29,8 +29,6 @@ struct story {
     size_t file_count;
 };
 
-int story_main(int argc, char **argv);
-
 /* Prints one line about what went wrong and remembers that the run has failed. */
 void story_fail(struct story *story, const char *format, ...) __attribute__((format(printf, 2, 3)));
 

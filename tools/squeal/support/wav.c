@@ -24,9 +24,9 @@ static double cubic(const double v[4], double fraction)
 /* The velocity at time t_s between samples i and i + 1. */
 static double velocity_at(const struct act *act, size_t i, double t_s)
 {
-    const struct sample *a = &act->samples[i];
-    const struct sample *before = i > act->start ? a - 1 : a;
-    const struct sample *after = i + 2 < act->count ? a + 2 : a + 1;
+    const struct act_sample *a = &act->samples[i];
+    const struct act_sample *before = i > act->start ? a - 1 : a;
+    const struct act_sample *after = i + 2 < act->count ? a + 2 : a + 1;
     const double v[4] = {before->xd_m_per_s, a->xd_m_per_s, a[1].xd_m_per_s, after->xd_m_per_s};
 
     return cubic(v, (t_s - a->t_s) / (a[1].t_s - a->t_s));
