@@ -93,7 +93,7 @@ const struct option *subcommands_find_option(const struct subcommand *subcommand
 
 void subcommands_help(void)
 {
-    static const char *const shown[] = {"get", "step", "demo"}; /* examples of these */
+    static const char *const shown[] = {"get", "record", "replay", "demo"}; /* examples of these */
 
     printf("usage: squeal SUBCOMMAND ... [--port PORT]\n\n");
     for (size_t i = 0; i < subcommands_count; i++) {

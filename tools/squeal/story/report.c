@@ -3,42 +3,20 @@
 #include "squeal/story/report.h"
 
 #include "squeal/support/fields.h"
+#include "squeal/support/json.h"
 
-#include <ctype.h>
 #include <string.h>
 
-static void string_write(FILE *file, const char *text, size_t length)
-{
-    (void)fputc('"', file);
-    for (size_t i = 0; i < length; i++) {
-        const unsigned char byte = (unsigned char)text[i];
-        if (byte == '"' || byte == '\\') {
-            (void)fputc('\\', file);
-        }
-        if (byte < ' ') {
-            (void)fprintf(file, "\\u%04x", byte);
-        } else {
-            (void)fputc(byte, file);
-        }
-    }
-    (void)fputc('"', file);
-}
-
-/* A number as the device wrote it, nan as null, anything else as a string. A word of hexadecimal digits only looks like
- * a number now and then, so what JSON would not take as one stays a string, and so does what is called a hash or a
- * build. */
+/* As a number where it is one. A word of hexadecimal digits only looks like a number now and then, so what is called a hash or
+ * a build stays a string. */
 static void value_write(FILE *file, const char *key, const char *text, size_t length)
 {
-    const size_t digits = strspn(text, "0123456789+-.eE");
     const bool is_name = strstr(key, "hash") == key || strstr(key, "build") == key || strstr(key, "version") == key;
-    const bool starts_well = isdigit((unsigned char)text[0]) || (text[0] == '-' && isdigit((unsigned char)text[1]));
 
-    if (length == 3 && strncmp(text, "nan", 3) == 0) {
-        (void)fputs("null", file);
-    } else if (!is_name && length > 0 && digits >= length && starts_well) {
-        (void)fwrite(text, 1, length, file);
+    if (is_name) {
+        json_write_part(file, text, length);
     } else {
-        string_write(file, text, length);
+        json_write_value(file, text, length);
     }
 }
 
@@ -54,7 +32,7 @@ static void fields_write(FILE *file, const char *line)
         if (sign != NULL) {
             const size_t key_length = (size_t)(sign - word);
             (void)fputs(is_first ? "" : ", ", file);
-            string_write(file, word, key_length);
+            json_write_part(file, word, key_length);
             (void)fputs(": ", file);
             value_write(file, word, sign + 1, length - key_length - 1);
             is_first = false;
@@ -88,7 +66,7 @@ static void parameters_write(FILE *file, const char *lines)
         const char *value;
         if (parameter_cut(line, &symbol, &value, &length)) {
             (void)fputs(is_first ? "" : ", ", file);
-            string_write(file, line, symbol);
+            json_write_part(file, line, symbol);
             (void)fputs(": ", file);
             value_write(file, "", value, length);
             is_first = false;
@@ -129,7 +107,7 @@ static void act_write(FILE *file, const struct act *act)
     const char *title = title_of(act);
 
     (void)fprintf(file, "    {\"act\": %d, \"title\": ", act->number);
-    string_write(file, title, strlen(title));
+    json_write_string(file, title);
     (void)fprintf(file, ", \"complete\": %s,\n     \"parameters_si\": ", act->is_done ? "true" : "false");
     parameters_write(file, act->parameters);
     (void)fputs(",\n     \"groups\": ", file);
@@ -155,9 +133,9 @@ static void map_record(FILE *file, const struct map *map)
     const struct map_counts counts = map_count(map);
 
     (void)fputs("{\"preset\": ", file);
-    string_write(file, map_plan.preset, strlen(map_plan.preset));
+    json_write_string(file, map_plan.preset);
     (void)fputs(", \"command\": ", file);
-    string_write(file, map->command, strlen(map->command));
+    json_write_string(file, map->command);
     (void)fprintf(file, ", \"complete\": %s,\n    \"axes\": [", map->is_whole ? "true" : "false");
     for (int i = 0; i < MAP_AXES; i++) {
         const struct map_axis *axis = &map_plan.axes[i];
@@ -194,12 +172,12 @@ void report_write(struct story *story)
     (void)fputs("{\n  \"firmware\": ", file);
     fields_write(file, story->id);
     (void)fputs(",\n  \"board\": ", file);
-    string_write(file, story->board, strlen(story->board));
+    json_write_string(file, story->board);
     (void)fputs(",\n  \"emulator\": ", file);
     if (story->emulator[0] == '\0') {
         (void)fputs("null", file);
     } else {
-        string_write(file, story->emulator, strlen(story->emulator));
+        json_write_string(file, story->emulator);
     }
     (void)fputs(",\n  \"seed\": null,\n  \"acts\": [\n", file);
     for (size_t i = 0; i < story->act_count; i++) {

@@ -46,6 +46,26 @@ void story_wrote(struct story *story, const char *path, const char *what)
     }
 }
 
+/* The last run of an act as a sound; its length in s, or 0 with the problem. */
+static double act_write(const struct act *act, const char *path, char problem[CSV_PROBLEM_MAX])
+{
+    const size_t count = act->count - act->start;
+    double *t_s = malloc((count + 1) * sizeof *t_s), *velocity = malloc((count + 1) * sizeof *velocity);
+    double length_s = 0.0;
+
+    (void)snprintf(problem, CSV_PROBLEM_MAX, "out of memory for the sound");
+    for (size_t i = 0; i < count && t_s != NULL && velocity != NULL; i++) {
+        t_s[i] = act->samples[act->start + i].t_s;
+        velocity[i] = act->samples[act->start + i].xd_m_per_s;
+    }
+    if (t_s != NULL && velocity != NULL) {
+        length_s = wav_write(path, t_s, velocity, count, SOUND_LONGEST_S, problem);
+    }
+    free(t_s);
+    free(velocity);
+    return length_s;
+}
+
 static void sound_write(struct story *story)
 {
     const struct act *loudest = NULL;
@@ -60,7 +80,7 @@ static void sound_write(struct story *story)
     if (loudest == NULL) {
         return;
     }
-    const double length_s = wav_write(story_path(story, path, "squeal.wav"), loudest, SOUND_LONGEST_S, problem);
+    const double length_s = act_write(loudest, story_path(story, path, "squeal.wav"), problem);
     if (length_s <= 0.0) {
         story_fail(story, "%s", problem);
         return;

@@ -78,7 +78,7 @@ static bool text_cut(struct csv *csv, const char *path, char problem[CSV_PROBLEM
         if (end > line && end[-1] == '\r') {
             end[-1] = '\0';
         }
-        if (*line != '\0') {
+        if (*line != '\0' && *line != '#') {
             const size_t count = line_cut(line, csv->cells + used);
             if (csv->columns == 0) {
                 csv->columns = count;
@@ -100,22 +100,27 @@ static bool text_cut(struct csv *csv, const char *path, char problem[CSV_PROBLEM
     return true;
 }
 
-bool csv_read(struct csv *csv, const char *path, char problem[CSV_PROBLEM_MAX])
+char *csv_read_text(const char *path, char problem[CSV_PROBLEM_MAX])
 {
     FILE *file = fopen(path, "r");
+    char *text = file != NULL ? file_read(file) : NULL;
 
-    memset(csv, 0, sizeof *csv);
-    if (file != NULL) {
-        csv->text = file_read(file);
-    }
-    if (csv->text == NULL) {
+    if (text == NULL) {
         (void)snprintf(problem, CSV_PROBLEM_MAX, "%s: %s", path, strerror(errno));
-        if (file != NULL) {
-            (void)fclose(file);
-        }
+    }
+    if (file != NULL) {
+        (void)fclose(file);
+    }
+    return text;
+}
+
+bool csv_read(struct csv *csv, const char *path, char problem[CSV_PROBLEM_MAX])
+{
+    memset(csv, 0, sizeof *csv);
+    csv->text = csv_read_text(path, problem);
+    if (csv->text == NULL) {
         return false;
     }
-    (void)fclose(file);
     const size_t lines = count_of(csv->text, '\n') + 1;
     csv->cells = calloc(lines + count_of(csv->text, ','), sizeof *csv->cells);
     csv->lines = calloc(lines, sizeof *csv->lines);

@@ -1,4 +1,5 @@
-/* Tables as comma-separated text with a header line. Nothing is quoted: the cells are numbers and plain names. */
+/* Tables as comma-separated text with a header line. Nothing is quoted: the cells are numbers and plain names. Lines that begin
+ * with # say something about the table and are skipped. */
 #ifndef SQUEAL_CSV_H
 #define SQUEAL_CSV_H
 
@@ -30,6 +31,9 @@ const char *csv_cell(const struct csv *csv, size_t row, int column);
 
 /* The cell as a number; NaN where column is -1 or the cell is no number. */
 double csv_number(const struct csv *csv, size_t row, int column);
+
+/* A whole file, 0-terminated; NULL with the problem. free() takes it back. */
+char *csv_read_text(const char *path, char problem[CSV_PROBLEM_MAX]);
 
 /* Opens a file for writing; on NULL problem says why. */
 FILE *csv_create(const char *path, char problem[CSV_PROBLEM_MAX]);

@@ -21,30 +21,33 @@ static double cubic(const double v[4], double fraction)
                                                    fraction * (slope0 + slope1 - 2.0 * rise)));
 }
 
-/* The velocity at time t_s between samples i and i + 1. */
-static double velocity_at(const struct act *act, size_t i, double t_s)
-{
-    const struct act_sample *a = &act->samples[i];
-    const struct act_sample *before = i > act->start ? a - 1 : a;
-    const struct act_sample *after = i + 2 < act->count ? a + 2 : a + 1;
-    const double v[4] = {before->xd_m_per_s, a->xd_m_per_s, a[1].xd_m_per_s, after->xd_m_per_s};
+struct motion {
+    const double *t_s, *velocity;
+    size_t count;
+};
 
-    return cubic(v, (t_s - a->t_s) / (a[1].t_s - a->t_s));
+/* The velocity at time t_s between samples i and i + 1. */
+static double velocity_at(const struct motion *motion, size_t i, double t_s)
+{
+    const double *t = motion->t_s, *all = motion->velocity;
+    const double v[4] = {all[i > 0 ? i - 1 : i], all[i], all[i + 1], all[i + 2 < motion->count ? i + 2 : i + 1]};
+
+    return cubic(v, (t_s - t[i]) / (t[i + 1] - t[i]));
 }
 
 /* Fills points[0..count), scaled to the file's range. A bounded motion has no mean velocity that had to be taken off.
  */
-static void resample(const struct act *act, double *points, size_t count)
+static void resample(const struct motion *motion, double *points, size_t count)
 {
     double peak = 0.0;
-    size_t i = act->start;
+    size_t i = 0;
 
     for (size_t point = 0; point < count; point++) {
-        const double t_s = act->samples[act->start].t_s + (double)point / WAV_RATE_HZ;
-        while (i + 2 < act->count && act->samples[i + 1].t_s <= t_s) {
+        const double t_s = motion->t_s[0] + (double)point / WAV_RATE_HZ;
+        while (i + 2 < motion->count && motion->t_s[i + 1] <= t_s) {
             i++;
         }
-        points[point] = velocity_at(act, i, t_s);
+        points[point] = velocity_at(motion, i, t_s);
         peak = fmax(peak, fabs(points[point]));
     }
     for (size_t point = 0; point < count && peak > 0.0; point++) {
@@ -77,13 +80,16 @@ static void header_write(FILE *file, size_t points)
     put_little_endian(file, size, 4);
 }
 
-double wav_write(const char *path, const struct act *act, double longest_s, char problem[CSV_PROBLEM_MAX])
+double wav_write(const char *path, const double *t_s, const double *velocity, size_t samples, double longest_s,
+                 char problem[CSV_PROBLEM_MAX])
 {
-    if (act->count < act->start + 2) {
+    const struct motion motion = {t_s, velocity, samples};
+
+    if (samples < 2) {
         (void)snprintf(problem, CSV_PROBLEM_MAX, "%s: no samples to hear", path);
         return 0.0;
     }
-    const double length_s = fmin(act->samples[act->count - 1].t_s - act->samples[act->start].t_s, longest_s);
+    const double length_s = fmin(t_s[samples - 1] - t_s[0], longest_s);
     const size_t count = (size_t)fmax(1.0, floor(length_s * WAV_RATE_HZ));
     double *points = calloc(count, sizeof *points);
     FILE *file = points == NULL ? NULL : csv_create(path, problem);
@@ -95,7 +101,7 @@ double wav_write(const char *path, const struct act *act, double longest_s, char
         free(points);
         return 0.0;
     }
-    resample(act, points, count);
+    resample(&motion, points, count);
     header_write(file, count);
     for (size_t i = 0; i < count; i++) {
         put_little_endian(file, (unsigned long)(lround(points[i]) & 0xffff), BYTES_A_POINT);
