@@ -2,8 +2,9 @@
 #include "squeal/story/story.h"
 
 #include "squeal/exits.h"
-#include "squeal/plot/plot.h"
+#include "squeal/plot/figure.h"
 #include "squeal/story/play.h"
+#include "squeal/story/plot.h"
 #include "squeal/story/report.h"
 #include "squeal/story/tell.h"
 #include "squeal/subcommands.h"
@@ -91,7 +92,7 @@ static void sound_write(struct story *story)
 
 static void pictures_draw(struct story *story)
 {
-    if (!plot_is_possible()) {
+    if (!figure_is_possible()) {
         printf("\nno pictures: gnuplot is not installed\n");
         return;
     }

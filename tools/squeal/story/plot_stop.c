@@ -1,5 +1,5 @@
 /* The stop: how far the pad swings while the disc slows down, and what the device says of it. */
-#include "squeal/plot/plot_parts.h"
+#include "squeal/story/plot_parts.h"
 
 #include <math.h>
 
@@ -20,14 +20,14 @@ static void bands_write(FILE *script, const struct act *act)
                           "set object rectangle from first %.9g, graph 0 to first %.9g, graph 1 behind fc rgb '%s' "
                           "fs solid noborder\n",
                           act->samples[start].t_s, act->samples[i < act->count ? i : i - 1].t_s,
-                          propensity == PROPENSITY_WATCH ? PLOT_COLOUR_WATCH : PLOT_COLOUR_SQUEAL);
+                          propensity == PROPENSITY_WATCH ? FIGURE_COLOUR_WATCH : FIGURE_COLOUR_SQUEAL);
         }
         start = i;
     }
 }
 
 /* Smallest and largest displacement, and the disc's speed, over equal stretches of samples. */
-static void envelope_data(FILE *script, const struct act *act, struct plot_unit length, struct plot_unit speed)
+static void envelope_data(FILE *script, const struct act *act, struct figure_unit length, struct figure_unit speed)
 {
     const size_t count = act->count - act->start;
     const size_t period = 2 * plot_period_of(act);
@@ -48,15 +48,6 @@ static void envelope_data(FILE *script, const struct act *act, struct plot_unit 
     (void)fputs("END\n", script);
 }
 
-/* A round distance of tics for a low picture of this height: about four of them. */
-static double tics_for(double height)
-{
-    const double decade = height > 0.0 ? pow(10.0, floor(log10(height / 4.0))) : 1.0;
-    const double rough = height / 4.0 / decade;
-
-    return decade * (rough > 5.0 ? 10.0 : (rough > 2.0 ? 5.0 : (rough > 1.0 ? 2.0 : 1.0)));
-}
-
 void plot_stop(struct story *story, const struct act *act)
 {
     double x_max = 0.0, v_max = 0.0;
@@ -69,8 +60,8 @@ void plot_stop(struct story *story, const struct act *act)
         x_max = fmax(x_max, fabs(act->samples[i].x_m));
         v_max = fmax(v_max, fabs(act->samples[i].disc_m_per_s));
     }
-    const struct plot_unit length = plot_unit_of_length(x_max);
-    const struct plot_unit speed = plot_unit_of_speed(v_max);
+    const struct figure_unit length = figure_unit_of_length(x_max);
+    const struct figure_unit speed = figure_unit_of_speed(v_max);
     const double start_s = act->samples[act->start].t_s;
     const double end_s = act->samples[act->count - 1].t_s;
     envelope_data(script, act, length, speed);
@@ -81,18 +72,18 @@ void plot_stop(struct story *story, const struct act *act)
         plot_title_write(script, act);
         (void)fprintf(script,
                       "set origin 0,0.32\nset size 1,0.68\nset format x ''\nset ylabel 'displacement x  [%s]'\n"
-                      "plot $stop using 1:2:3 with filledcurves fc rgb '" PLOT_COLOUR_MOTION
+                      "plot $stop using 1:2:3 with filledcurves fc rgb '" FIGURE_COLOUR_MOTION
                       "' title 'x, least to most', "
-                      "$stop using 1:2 with lines lw 1 lc rgb '" PLOT_COLOUR_MOTION "' notitle, "
-                      "$stop using 1:3 with lines lw 1 lc rgb '" PLOT_COLOUR_MOTION "' notitle, "
-                      "NaN with boxes fs solid lc rgb '" PLOT_COLOUR_WATCH "' title 'watch', "
-                      "NaN with boxes fs solid lc rgb '" PLOT_COLOUR_SQUEAL "' title 'squeal'\n",
+                      "$stop using 1:2 with lines lw 1 lc rgb '" FIGURE_COLOUR_MOTION "' notitle, "
+                      "$stop using 1:3 with lines lw 1 lc rgb '" FIGURE_COLOUR_MOTION "' notitle, "
+                      "NaN with boxes fs solid lc rgb '" FIGURE_COLOUR_WATCH "' title 'watch', "
+                      "NaN with boxes fs solid lc rgb '" FIGURE_COLOUR_SQUEAL "' title 'squeal'\n",
                       length.name);
         (void)fprintf(script,
                       "unset title\nset tmargin 1\nset origin 0,0\nset size 1,0.34\nset format x '%%g'\nset key off\n"
                       "set xlabel 'time t  [s]'\nset ylabel 'v0  [%s]'\nset yrange [0:*]\nset ytics %.9g\n"
-                      "plot $stop using 1:4 with lines lw 2.5 lc rgb '" PLOT_COLOUR_DISC "'\nunset multiplot\n",
-                      speed.name, tics_for(v_max * speed.factor));
+                      "plot $stop using 1:4 with lines lw 2.5 lc rgb '" FIGURE_COLOUR_DISC "'\nunset multiplot\n",
+                      speed.name, figure_tics(v_max * speed.factor));
     }
     plot_script_close(story, script, "stop-envelope", "displacement, disc speed and verdict over the stop");
 }

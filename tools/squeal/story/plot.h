@@ -5,9 +5,6 @@
 
 #include "squeal/story/story.h"
 
-/* Is gnuplot at hand? */
-bool plot_is_possible(void);
-
 /* phase-<act>.svg and .png: displacement against velocity, the end of the act over the way there. */
 void plot_phase(struct story *story, const struct act *act);
 

@@ -1,7 +1,7 @@
 /* The map: a tile for each trial, over force and slope. Squeal runs from light to dark with its size, so that it is read
  * in print too; what still grows carries a dot, for it is not yet at its size. The steeper slope is on top: upwards and
  * to the right it gets worse. */
-#include "squeal/plot/plot_parts.h"
+#include "squeal/story/plot_parts.h"
 
 #include "squeal/support/fields.h"
 
@@ -114,7 +114,7 @@ static void line_name_write(FILE *script, const struct map *map)
 
     if (share > 0.0 && share < 1.0) {
         (void)fprintf(script,
-                      "set label '|" PLOT_ALPHA "| N = c = %g N s/m' at first %.7g, first %.7g center rotate by %.1f "
+                      "set label '|" FIGURE_ALPHA "| N = c = %g N s/m' at first %.7g, first %.7g center rotate by %.1f "
                       "offset 0,-1.1 front\n",
                       map->damping_n_s_per_m, force, slope, atan(rise * PICTURE_SHAPE) * 180.0 / acos(-1.0));
     }
@@ -132,7 +132,7 @@ static void title_write(FILE *script, const struct story *story)
         (void)fprintf(script, ", %zu missing", total - map->came);
     }
     (void)fprintf(script, "\\n{/*0.8 preset %s, board %s, %s, %.0f steps a normal period}\"\n", map_plan.preset,
-                  plot_plain(story->board, words), arith, fields_number(map->status, "spp"));
+                  figure_plain(story->board, words, sizeof words), arith, fields_number(map->status, "spp"));
 }
 
 static void frame_write(FILE *script, const struct map *map, const struct map_counts *counts)
@@ -145,13 +145,13 @@ static void frame_write(FILE *script, const struct map *map, const struct map_co
                   "set tmargin at screen 0.845\nset xrange [%.7g:%.7g]\nset yrange [%.7g:%.7g]\nunset grid\n"
                   "set key at graph 1,1.005 right bottom horizontal maxrows 1 samplen 1.5 width -1 font ',15'\n"
                   "set xlabel 'brake force N  [N]'\n"
-                  "set ylabel 'friction slope " PLOT_ALPHA "  [s/m], steeper upwards'\nset format y '%%.2f'\n"
+                  "set ylabel 'friction slope " FIGURE_ALPHA "  [s/m], steeper upwards'\nset format y '%%.2f'\n"
                   "set palette defined (" PALETTE ")\n",
                   x.low, x.high, y.high, y.low);
     if (counts->most_um >= counts->least_um) {
         (void)fprintf(script,
                       "set cbrange [%.6g:%.6g]\nset cbtics out\n"
-                      "set cblabel 'amplitude where it squeals  [" PLOT_MICRO "m]'\n",
+                      "set cblabel 'amplitude where it squeals  [" FIGURE_MICRO "m]'\n",
                       counts->least_um - margin, counts->most_um + margin);
     } else {
         (void)fputs("set cbrange [0:1]\nunset colorbox\n", script);

@@ -1,5 +1,5 @@
 /* The phase portrait: displacement against velocity, the end of an act over the way there. */
-#include "squeal/plot/plot_parts.h"
+#include "squeal/story/plot_parts.h"
 
 #include <math.h>
 
@@ -58,8 +58,8 @@ static size_t path_end(const struct act *act, size_t tail_start, const struct bo
 }
 
 /* Points of a line; where samples are missing the pen is lifted, which an empty line does. */
-static void points_write(FILE *script, const struct act *act, size_t from, size_t to, struct plot_unit length,
-                         struct plot_unit speed)
+static void points_write(FILE *script, const struct act *act, size_t from, size_t to, struct figure_unit length,
+                         struct figure_unit speed)
 {
     for (size_t i = from; i < to && i < act->count; i++) {
         const struct act_sample *sample = &act->samples[i];
@@ -71,7 +71,8 @@ static void points_write(FILE *script, const struct act *act, size_t from, size_
 }
 
 /* The way to the attractor, a long one thinned by whole periods. */
-static void path_write(FILE *script, const struct act *act, size_t to, struct plot_unit length, struct plot_unit speed)
+static void path_write(FILE *script, const struct act *act, size_t to, struct figure_unit length,
+                       struct figure_unit speed)
 {
     const size_t period = plot_period_of(act);
     const size_t stride = period * ((to - act->start) / PATH_SAMPLES + 1);
@@ -87,13 +88,13 @@ static void path_write(FILE *script, const struct act *act, size_t to, struct pl
 }
 
 /* The disc's speed as a line, or in words where it lies so far off that the motion would shrink to nothing. */
-static void disc_write(FILE *script, double disc, const struct box *all, struct plot_unit speed)
+static void disc_write(FILE *script, double disc, const struct box *all, struct figure_unit speed)
 {
     const bool is_near = fabs(disc) < DISC_NEAR * fmax(-all->v_low, all->v_high);
     const double low = is_near ? fmin(all->v_low, disc) : all->v_low;
     const double high = is_near ? fmax(all->v_high, disc) : all->v_high;
     const double margin = 0.06 * (high - low);
-    const struct plot_unit unit = plot_unit_of_speed(fabs(disc));
+    const struct figure_unit unit = figure_unit_of_speed(fabs(disc));
 
     if (high > low) {
         (void)fprintf(script, "set yrange [%.9g:%.9g]\n", (low - margin) * speed.factor,
@@ -102,7 +103,7 @@ static void disc_write(FILE *script, double disc, const struct box *all, struct 
     if (is_near) {
         (void)fprintf(script,
                       "set arrow from graph 0, first %.9g to graph 1, first %.9g nohead lw 2 dt 2 "
-                      "lc rgb '" PLOT_COLOUR_DISC "'\n",
+                      "lc rgb '" FIGURE_COLOUR_DISC "'\n",
                       disc * speed.factor, disc * speed.factor);
     }
     (void)fprintf(script, "disc = 'v_0 = %.4g %s%s'\n", disc * unit.factor, unit.name, is_near ? "" : ", far off");
@@ -122,8 +123,8 @@ void plot_phase(struct story *story, const struct act *act)
     const struct box all = box_of(act, act->start, act->count);
     const struct box end = box_of(act, tail_start, act->count);
     const struct box point = {last->x_m, last->x_m, last->xd_m_per_s, last->xd_m_per_s};
-    const struct plot_unit length = plot_unit_of_length(fmax(-all.x_low, all.x_high));
-    const struct plot_unit speed = plot_unit_of_speed(fmax(-all.v_low, all.v_high));
+    const struct figure_unit length = figure_unit_of_length(fmax(-all.x_low, all.x_high));
+    const struct figure_unit speed = figure_unit_of_speed(fmax(-all.v_low, all.v_high));
     path_write(script, act, path_end(act, tail_start, &all), length, speed);
     (void)fputs("$motion << END\n", script);
     points_write(script, act, tail_start, act->count, length, speed);
@@ -137,10 +138,10 @@ void plot_phase(struct story *story, const struct act *act)
         (void)fprintf(script,
                       "set xlabel 'displacement x  [%s]'\nset ylabel 'velocity dx/dt  [%s]'\n"
                       "set offsets graph 0.05,0.05,0,0\n"
-                      "plot $path with lines lw 1 lc rgb '" PLOT_COLOUR_PATH "' title 'the way there', "
-                      "$motion with lines lw 2.5 lc rgb '" PLOT_COLOUR_MOTION "' title 'at the end', "
-                      "$end with points pt 7 ps %d lc rgb '" PLOT_COLOUR_MOTION "' notitle, "
-                      "NaN with lines lw 2 dt 2 lc rgb '" PLOT_COLOUR_DISC "' title disc\n",
+                      "plot $path with lines lw 1 lc rgb '" FIGURE_COLOUR_PATH "' title 'the way there', "
+                      "$motion with lines lw 2.5 lc rgb '" FIGURE_COLOUR_MOTION "' title 'at the end', "
+                      "$end with points pt 7 ps %d lc rgb '" FIGURE_COLOUR_MOTION "' notitle, "
+                      "NaN with lines lw 2 dt 2 lc rgb '" FIGURE_COLOUR_DISC "' title disc\n",
                       length.name, speed.name, box_is_same(&end, &point, &all) ? 1 : 0); /* a motion that died out */
     }
     plot_script_close(story, script, name, "phase portrait");
