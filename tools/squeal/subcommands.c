@@ -1,6 +1,8 @@
 /* The table, its help, and what the shell may complete. */
 #include "squeal/subcommands.h"
 
+#include "model/params.h"
+#include "model/presets.h"
 #include "squeal/exits.h"
 #include "squeal/port/boards.h"
 #include "squeal/port/port.h"
@@ -128,14 +130,27 @@ void subcommands_help_one(const struct subcommand *subcommand)
     printf("\n%s", exits);
 }
 
+/* Names that an operand may be, as far as this program knows them without asking a device. */
+static void operand_words(const struct subcommand *subcommand)
+{
+    const bool is_assignment = strstr(subcommand->operands, "NAME=VALUE") != NULL;
+
+    for (size_t i = 0; strcmp(subcommand->operands, "[NAME]") == 0 && i < presets_count; i++) {
+        printf("%s\n", presets_table[i].name);
+    }
+    for (size_t i = 0; (is_assignment || strcmp(subcommand->operands, "NAME...") == 0) && i < params_count; i++) {
+        printf("%s%s\n", params_table[i].symbol, is_assignment ? "=" : "");
+    }
+}
+
 int command_words(const struct arguments *arguments)
 {
-    const struct subcommand *subcommand =
-        arguments->operand_count > 0 ? subcommands_find(arguments->operands[0]) : NULL;
+    const char *first = arguments->operand_count > 0 ? arguments->operands[0] : "";
+    const struct subcommand *subcommand = subcommands_find(first);
     const struct option *option;
     char ports[PORTS_SIZE];
 
-    if (arguments->operand_count > 0 && strcmp(arguments->operands[0], "--port") == 0) {
+    if (strcmp(first, "port") == 0) {
         boards_ports(ports, sizeof ports);
         printf("pty unix: tcp:%s\n", ports);
         return EXIT_OK;
@@ -145,6 +160,9 @@ int command_words(const struct arguments *arguments)
     }
     for (size_t i = 0; subcommand != NULL && (option = subcommands_option(subcommand, i)) != NULL; i++) {
         printf("%s\n", option->name);
+    }
+    if (subcommand != NULL) {
+        operand_words(subcommand);
     }
     printf("--help\n");
     return EXIT_OK;
