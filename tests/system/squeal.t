@@ -21,7 +21,7 @@ import time
 import tty
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from controller import ERRORS, TYPES, unwire, wire  # noqa: E402
+from controller import ERRORS, SYMBOLS, TYPES, Controller, unwire, wire  # noqa: E402
 from firmware import Firmware, Tap  # noqa: E402
 
 TOOL = os.path.abspath(os.environ.get("TOOL", "build/tools/squeal"))
@@ -75,6 +75,10 @@ with Firmware("host", link=path) as firmware:
     check(tool("set", "N0=3", "spp=64.5", *port), REFUSED, "spp=64.5: one of 16|32|", "set of what is no name")
     check(tool("set", "N0=3", "spp=16", "kt=10", *port), REFUSED, "step-too-large", "set that the model refuses")
     check(tool("set", "N0=3", "n1=1", *port), REFUSED, "no parameter is called 'n1'; there is N1", "set of an unknown name")
+    controller = Controller(path)
+    staged = controller.ask("READ", 1, SYMBOLS.index("N0"))[2]
+    controller.close()
+    tap.check(staged == 2.5, "nothing of a refused set stays staged", str(staged))
     check(tool("set", "N0", *port), USAGE, "'N0': NAME=VALUE is wanted", "set without a value")
     check(tool("get", "N0", *port), OK, "N0 = 2.5 N", "after all of which nothing has changed")
     check(tool("preset", *port), OK, "fig5-n10 ", "the presets")
@@ -108,6 +112,47 @@ with Firmware("host", link=path) as firmware:
     check(tool("preset", "fig7-ke5000", *port), OK, "in force", "a set that diverges")
     run = tool("step", "100000", *port)
     tap.check(run.returncode == FAILED and "left its domain and is frozen: reset" in run.stderr, "its fault is told", run.stderr)
+
+# --- Studies -----------------------------------------------------------------------------------------------------------
+path = folder + "/study"
+with Firmware("host", link=path) as firmware:
+    port = ("--port", "unix:" + path)
+    tool("preset", "brake", *port)
+    tool("step", "40000", *port)
+    run = tool("verdict", *port)
+    check(run, OK, ["propensity        squeal", "class             limitcycle-stickslip", "predicted         squeal"], "verdict")
+    tap.check(f"amplitude         {firmware.ask('verdict')['amplitude_um']} um" in run.stdout, "is that of the console", run.stdout)
+    before = fields(tool("status", *port))["hash"]
+    run = tool("scan", "N1", "1000", "4000", "3", "alpha", "-0.12", "-0.03", "3", "log", "--out", "map.csv", *port)
+    check(run, OK, ["9 trials: ", "map.csv: 9 points"], "scan")
+    with open(folder + "/map.csv") as file:
+        points = list(csv.DictReader(line for line in file if not line.startswith("#")))
+    firmware.send("scan N1 1000 4000 3 alpha -0.12 -0.03 3 log")
+    firmware.answer()
+    wanted = [dict(word.split("=", 1) for word in line.split() if "=" in word) for line in firmware.body]
+    tap.check([(point["i"], point["j"], point["N1[N]"], point["propensity"], point["amplitude[um]"], point["end"], point["periods"]) for point in points] ==
+              [(point["i"], point["j"], point["N1"], point["propensity"], point["amplitude_um"], point["end"], point["periods"]) for point in wanted],
+              "has the points of the console's", *map(str, points))
+    check(tool("scan", "N1", "1000", "1e9", "2", "--out", "one.csv", *port), OK, "1 refused", "scan of what does not fit")
+    tap.check(open(folder + "/one.csv").read().splitlines()[-1] == "1,0,1000000000" + 15 * "," + ",out-of-scale", "which is told in its place")
+    run = tool("margin", "N1", *port)
+    check(run, OK, ["N1 = 3000 N: squeal; below 1999.3", "less of it quiets"], "margin")
+    check(tool("margin", "x0", *port), REFUSED, "not-served", "margin of what has no border")
+    tap.check(fields(tool("status", *port))["hash"] == before, "all of which changes no bit of the plant")
+    for words in (["N1", "1", "2"], ["N1", "1", "2", "0"], ["N1", "1", "2", "257"], ["N1", "1", "2", "3", "c", "1"],
+                  ["N1", "1", "2", "3", "c", "1", "2", "3", "m", "1"]):
+        check(tool("scan", *words, "--out", "x.csv", *port), USAGE, "squeal: ", "usage: scan " + " ".join(words))
+    check(tool("scan", "N1", "1", "2", "3", "N1", "1", "2", "3", "--out", "x.csv", *port), REFUSED, "usage", "scan of one parameter twice")
+    check(tool("scan", "x1", "1", "2", "3", "--out", "x.csv", *port), REFUSED, "no parameter is called 'x1'", "scan of none")
+    run = subprocess.Popen([TOOL, "scan", "N1", "1000", "4000", "256", "alpha", "-0.12", "-0.03", "256", "--out", folder + "/cut.csv", *port],
+                           stdout=subprocess.PIPE, stderr=subprocess.PIPE, universal_newlines=True, env=environment)
+    while not os.path.exists(folder + "/cut.csv") or os.path.getsize(folder + "/cut.csv") < 4096:
+        time.sleep(0.05)
+    run.send_signal(signal.SIGINT)
+    said = run.communicate(timeout=LIMIT_S)
+    tap.check(run.returncode == FAILED and "stopped before its end" in said[1] and re.search(r"cut.csv: \d+ points", said[0]), "Ctrl-C ends a scan in words",
+              str(said))
+    os.remove(folder + "/cut.csv")
 
 # --- Runs that can be made again ---------------------------------------------------------------------------------------
 with open(folder + "/inputs.csv", "w") as file:
@@ -182,7 +227,7 @@ check(tool("plot", "phase", "inputs.csv"), FAILED, "no column t", "plot of anoth
 
 # --- Self-test ---------------------------------------------------------------------------------------------------------
 for where in dict.fromkeys(["host", BOARD]):
-    check(tool("selftest", "--port", where), OK, ["pass lockstep: ", "steps with inputs", " 0 failed\n"], f"{where}: selftest")
+    check(tool("selftest", "--port", where), OK, ["pass lockstep: ", "steps with inputs", "pass on the device: ticks", " 0 failed\n"], f"{where}: selftest")
 
 # --- Ports -------------------------------------------------------------------------------------------------------------
 

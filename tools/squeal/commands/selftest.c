@@ -12,6 +12,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#define OWN_LIMIT_S 300.0
+
 enum {
     STEPS = 4000,
     TURN_MAX = 40,
@@ -184,6 +186,26 @@ static enum device_result test_lockstep(struct selftest *test)
     return result;
 }
 
+/* The device's own checks, where it has any. A test must not be told for one that this tool does not know. */
+static enum device_result test_own(struct selftest *test)
+{
+    const size_t count = device_count(test->device, DEVICE_SELFTESTS);
+    unsigned passed = 0, failed = 0;
+    uint32_t failures = 0;
+
+    if (count == 0) {
+        printf("note the device has no checks of its own over the link\n");
+        return DEVICE_OK;
+    }
+    const enum device_result result = device_selftest(test->device, OWN_LIMIT_S, &passed, &failed, &failures);
+    for (size_t i = 0; i < count && i < 32 && result == DEVICE_OK; i++) {
+        const struct device_row *row = device_row(test->device, DEVICE_SELFTESTS, i);
+        check(test, (failures >> i & 1u) == 0, "on the device: %s: %s", row->symbol, row->help);
+    }
+    check(test, result == DEVICE_OK && passed + failed == count, "on the device: %u passed, %u failed", passed, failed);
+    return result;
+}
+
 static int run_all(struct selftest *test)
 {
     struct recording before = {0};
@@ -196,6 +218,7 @@ static int run_all(struct selftest *test)
         test_params(test);
         test_others(test);
         result = test_lockstep(test);
+        result = result == DEVICE_OK ? test_own(test) : result;
     }
     /* The set that was in force before comes back, at step 0. */
     result = result == DEVICE_OK ? recording_load(&before, test->device) : result;

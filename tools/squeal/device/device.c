@@ -79,6 +79,8 @@ static enum master_event bytes_take(struct device *device, const uint8_t *bytes,
         device->heard_s = clock_now_s();
         if (event == MASTER_UNASKED && frame.type == LINK_SAMPLE) {
             device_take_sample(device, &frame);
+        } else if (event == MASTER_UNASKED) {
+            device_take_result(device, &frame);
         } else if (event == MASTER_ANSWERED || event == MASTER_REFUSED) {
             outcome = event;
             *answer = frame;
@@ -227,7 +229,7 @@ static void read_identity(struct device *device, struct bytes_reader *reply)
     identity->params_version = bytes_get_u16(reply);
     identity->signals_version = bytes_get_u16(reply);
     identity->commands_version = bytes_get_u16(reply);
-    for (int i = 0; i < LINK_TABLE_COUNT; i++) {
+    for (int i = 0; i <= LINK_PRESETS; i++) {
         device->counts[i] = bytes_get_u8(reply);
     }
     const uint8_t flags = bytes_get_u8(reply);

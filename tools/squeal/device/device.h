@@ -44,6 +44,9 @@ void device_close(struct device *device);
 const char *device_problem(const struct device *device);
 const struct master_refusal *device_refusal(const struct device *device);
 
+/* The name of an error's number; "unknown-error" of one that only a newer device knows. */
+const char *device_error_name(unsigned error);
+
 /* Has the port gone, or fallen silent? Where a function gives no result but a row, this tells what kind of problem it was. */
 bool device_is_lost(const struct device *device);
 
@@ -69,6 +72,7 @@ enum device_table {
     DEVICE_PARAMS = LINK_PARAMS,
     DEVICE_SIGNALS = LINK_SIGNALS,
     DEVICE_PRESETS = LINK_PRESETS,
+    DEVICE_SELFTESTS = LINK_SELFTESTS, /* empty where the device has no such table */
     DEVICE_TABLES = LINK_TABLE_COUNT
 };
 
@@ -152,6 +156,24 @@ enum device_result device_status(struct device *device, struct device_status *st
 
 enum device_result device_ping(struct device *device, uint64_t word, uint64_t *echo);
 
+struct device_verdict {
+    uint8_t propensity, motion, period; /* as in struct master_state */
+    uint8_t band;                       /* 0 none, 1 groan, 2 squeal */
+    uint8_t predicted;                  /* the same names */
+    bool is_audible, is_bistable;
+    float amplitude_um, velocity_mm_s, velocity_mm_s_rms, level_db, acceleration_g, frequency_hz, level_dba_estimate;
+    float growth_per_s, growth_error_per_s, stick, slip_minus; /* shares of the time */
+    float predicted_growth_per_s, predicted_touch_ratio, onset_touch_ratio, t_v10_s, sigma;
+};
+
+/* What the device says of the motion; NaN where something makes no sense. */
+enum device_result device_verdict(struct device *device, struct device_verdict *verdict);
+
+/* The device's own checks, by rows of its table of self-tests: bit i of failures says that test i failed. It takes as long as
+ * limit_s. */
+enum device_result device_selftest(struct device *device, double limit_s, unsigned *passed, unsigned *failed,
+                                   uint32_t *failures);
+
 /* --- Samples ------------------------------------------------------------------------------------------------------ */
 
 struct device_sample {
@@ -175,6 +197,71 @@ struct device_stream {
 /* Samples of these signals each every-th step; every 0 ends them, after the last one. reply may be NULL. */
 enum device_result device_stream(struct device *device, const int *signals, size_t count, uint32_t every,
                                  struct device_stream *reply);
+
+/* --- Studies: trials beside the plant, which goes on undisturbed --------------------------------------------------- */
+
+struct device_axis {
+    int param;
+    bool is_log; /* equal ratios instead of equal steps */
+    float from, to;
+    unsigned points;
+};
+
+/* Normal periods of a trial: to settle, and to measure over; is_whole: never cut short. */
+struct device_span {
+    unsigned transient, window;
+    bool is_whole;
+};
+
+struct device_point {
+    uint32_t index; /* the first axis fastest */
+    float at[2];    /* on the axes */
+    uint8_t error;  /* enum error: why the model cannot hold this set; then nothing that follows means anything */
+    uint8_t propensity, motion, period, predicted, end;
+    bool is_loud, is_undecided;
+    float amplitude_um, velocity_mm_s, frequency_hz, level_db, growth_per_s, growth_error_per_s, predicted_growth_per_s;
+    float periods;
+};
+
+/* NaN where there is none. */
+struct device_side {
+    float border, quiet, squeal; /* and the values of both kinds between which it lies */
+    float searched;              /* the farthest value tried where there is none */
+};
+
+struct device_border {
+    uint8_t param;
+    bool is_squeal; /* at the value itself */
+    uint8_t quiets; /* 0 none, 1 down, 2 up, 3 any */
+    float value;
+    struct device_side below, above;
+};
+
+struct device_tally {
+    uint8_t reason; /* ERROR_OK done, ERROR_STOPPED, or why the set itself cannot be tried */
+    uint32_t results;
+    uint32_t trials, unknown, quiet, watch, squeal, loud, undecided, refused, diverged, caps, saturations, gap_held;
+    uint64_t steps;
+};
+
+/* Who is told what comes of a study. */
+struct device_study {
+    void *context;
+    void (*on_point)(void *context, const struct device_point *point);    /* of a scan */
+    void (*on_border)(void *context, const struct device_border *border); /* of a margin */
+    void (*on_end)(void *context, const struct device_tally *tally);
+};
+
+/* Begin a study: a map over one axis or two; the borders of one parameter, or of all with -1. results: so many are to come, by
+ * themselves, see device_listen(). */
+enum device_result device_scan(struct device *device, const struct device_axis *axes, size_t count,
+                               const struct device_span *span, const struct device_study *study, uint32_t *results);
+enum device_result device_margin(struct device *device, int param, float within, const struct device_span *span,
+                                 const struct device_study *study, uint32_t *results);
+
+/* Takes what comes until the study has ended, looking now and then whether the device is still there, or until
+ * is_unwanted(), which ends the study. */
+enum device_result device_await_study(struct device *device, bool (*is_unwanted)(void));
 
 /* Takes what comes by itself for so long; 0.0: what is there already. */
 enum device_result device_listen(struct device *device, double seconds);

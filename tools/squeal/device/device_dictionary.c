@@ -22,7 +22,8 @@ static enum device_result read_row(struct device *device, enum device_table tabl
     if (result != DEVICE_OK) {
         return result;
     }
-    (void)bytes_get_block(&reply, 3); /* table, index, rows */
+    (void)bytes_get_block(&reply, 2); /* table, index */
+    device->counts[table] = bytes_get_u8(&reply);
     row->id = bytes_get_u16(&reply);
     row->kind = bytes_get_u8(&reply);
     row->change = bytes_get_u8(&reply);
@@ -35,18 +36,27 @@ static enum device_result read_row(struct device *device, enum device_table tabl
     return DEVICE_OK;
 }
 
+/* HELLO does not count the rows of a table that came later: its first one does, and where there is none the table is empty. */
+static enum device_result count_rows(struct device *device, enum device_table table)
+{
+    struct device_row row;
+    const enum device_result result = table == DEVICE_SELFTESTS ? read_row(device, table, 0, &row) : DEVICE_OK;
+
+    return result == DEVICE_REFUSED ? DEVICE_OK : result;
+}
+
 static enum device_result read_one_table(struct device *device, enum device_table table)
 {
     if (device->tables[table] != NULL) {
         return DEVICE_OK;
     }
+    enum device_result result = count_rows(device, table);
     struct device_row *rows = calloc(device->counts[table] + 1, sizeof *rows);
-    enum device_result result = DEVICE_OK;
     if (rows == NULL) {
         device_fail(device, "out of memory");
         return DEVICE_LOST;
     }
-    for (size_t i = 0; i < device->counts[table] && result == DEVICE_OK; i++) {
+    for (size_t i = 0, count = device->counts[table]; i < count && result == DEVICE_OK; i++) {
         result = read_row(device, table, i, &rows[i]);
     }
     if (result == DEVICE_OK) {
@@ -102,7 +112,7 @@ static bool is_like(const char *symbol, const char *text)
 
 static void fail_unknown(struct device *device, enum device_table table, const char *symbol)
 {
-    static const char *const names[] = {"parameter", "signal", "preset"};
+    static const char *const names[] = {"parameter", "signal", "preset", "self-test"};
     char like[LIKE_SIZE] = "", shown[LIKE_SIZE];
     size_t length = 0;
 
@@ -209,6 +219,10 @@ static const struct {
 #undef ERROR
 };
 
+static bool is_known(unsigned error) { return error < sizeof errors / sizeof errors[0] && errors[error].name != NULL; }
+
+const char *device_error_name(unsigned error) { return is_known(error) ? errors[error].name : "unknown-error"; }
+
 /* What a refusal blames. */
 static void blame_write(struct device *device, char *out, size_t size)
 {
@@ -229,7 +243,7 @@ void device_tell_refusal(struct device *device)
     const bool has_range = refusal->error == ERROR_OUT_OF_RANGE || refusal->error == ERROR_OUT_OF_SCALE;
 
     blame_write(device, blame, sizeof blame);
-    if (refusal->error >= sizeof errors / sizeof errors[0] || errors[refusal->error].name == NULL) {
+    if (!is_known(refusal->error)) {
         device_fail(device, "%srefused with error %u, which is not known here", blame, refusal->error);
         return;
     }

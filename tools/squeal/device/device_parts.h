@@ -21,7 +21,7 @@ struct device {
     uint64_t steps_a_ask; /* what the device makes in a moment, so that a long STEP is cut into parts */
 
     struct device_identity identity;
-    size_t counts[LINK_TABLE_COUNT];             /* of rows, by HELLO */
+    size_t counts[LINK_TABLE_COUNT];             /* of rows, by HELLO or by the table's first row */
     struct device_row *tables[LINK_TABLE_COUNT]; /* NULL: not read yet */
 
     int signals[DEVICE_SIGNALS_MAX]; /* of the stream, in the order of their bits */
@@ -29,6 +29,10 @@ struct device {
     uint16_t sample_sequence;        /* of the next one, if none gets lost */
     device_listener listener;
     void *context;
+
+    struct device_study study;
+    bool is_studying;
+    uint16_t study_sequence; /* of its request, and of all that comes of it */
 
     struct master_refusal refusal;
     char problem[DEVICE_PROBLEM_MAX];
@@ -57,6 +61,8 @@ double device_number(const struct device *device, int signal, uint32_t word);
 
 /* A frame that came by itself. */
 void device_take_sample(struct device *device, const struct frame *frame);
+
+void device_take_result(struct device *device, const struct frame *frame);
 
 /* The whole step counter behind its low word: the one nearest to where the plant was last. */
 uint64_t device_step_of(const struct device *device, uint32_t low);
