@@ -219,10 +219,19 @@ if shutil.which("gnuplot"):
         signals = ("--signals", "x,xd") if kind == "time" else ()
         check(tool("plot", kind, "run.csv", *signals), OK, f"run-{kind}.svg\nrun-{kind}.png", f"plot {kind}")
         tap.check(os.path.getsize(f"{folder}/run-{kind}.svg") > 2000 and os.path.getsize(f"{folder}/run-{kind}.png") > 2000, "has its files")
+    check(tool("plot", "map", "map.csv"), OK, "map-map.svg", "plot map")
+    drawn = open(folder + "/map-map.svg").read()
+    tap.check("N1  [N]" in drawn and "alpha  [s/m]" in drawn and "9 trials" in drawn, "has its axes")
+    with open(folder + "/evil.csv", "w") as file:
+        file.write("step,t[s],x[m'; system 'touch evil'; print '],xd[m/s]\n" + "".join(f"{i},{i},{i},{i}\n" for i in range(9)))
+    tool("plot", "time", "evil.csv", "--signals", "x")
+    tap.check(not os.path.exists(folder + "/evil"), "what a table says is no command to gnuplot")
+    check(tool("plot", "map", "one.csv"), FAILED, "takes a scan of two parameters", "a scan of one parameter is no map")
+    check(tool("plot", "map", "run.csv"), FAILED, "no table that scan has written", "nor is a run")
     check(tool("plot", "time", "run.csv", "--signals", "y"), FAILED, "no column y", "plot of what is not there")
     check(tool("plot", "time", "run.csv", "--signals", "propensity"), FAILED, "holds more than numbers", "plot of words")
     check(tool("plot", "phase", "run.csv", "--from", "99"), FAILED, "less than two samples", "plot of nothing")
-check(tool("plot", "poem", "run.csv"), USAGE, "phase, time or spectrum", "plot of no kind")
+check(tool("plot", "poem", "run.csv"), USAGE, "phase, time, spectrum or map", "plot of no kind")
 check(tool("plot", "phase", "inputs.csv"), FAILED, "no column t", "plot of another table")
 
 # --- Self-test ---------------------------------------------------------------------------------------------------------

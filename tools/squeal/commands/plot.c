@@ -1,7 +1,8 @@
-/* plot: pictures of what record has written. */
+/* plot: pictures of what record and scan have written. */
 #include "squeal/exits.h"
 #include "squeal/plot/curves.h"
 #include "squeal/plot/figure.h"
+#include "squeal/plot/scan_map.h"
 #include "squeal/subcommands.h"
 #include "squeal/support/arguments.h"
 #include "squeal/support/csv.h"
@@ -19,7 +20,8 @@ static const struct kind {
     bool (*draw)(const struct curves *curves, char problem[CSV_PROBLEM_MAX]);
 } kinds[] = {{"phase", "x,xd", 2, 2, curves_phase},
              {"time", "x,xd,N,v0", 1, CURVES_MAX, curves_time},
-             {"spectrum", "xd", 1, 1, curves_spectrum}};
+             {"spectrum", "xd", 1, 1, curves_spectrum},
+             {"map", "", 0, 0, NULL}};
 
 static int fail(const char *problem)
 {
@@ -91,10 +93,24 @@ static bool columns_read(struct curves *curves, const struct csv *csv, const cha
                            curves->title, curves->name[i]);
             return false;
         }
+        (void)figure_label(curves->name[i], curves->name[i], sizeof curves->name[i]);
+        (void)figure_label(curves->unit[i], curves->unit[i], sizeof curves->unit[i]);
         curves->columns++;
         at += length;
     }
     return true;
+}
+
+/* A map has no time: its table is another one. */
+static int draw_map(const struct csv *csv, const struct curves *curves)
+{
+    char problem[CSV_PROBLEM_MAX];
+
+    if (!scan_map_draw(csv, curves->title, curves->path, problem)) {
+        return fail(problem);
+    }
+    printf("%s.svg\n%s.png\n", curves->path, curves->path);
+    return EXIT_OK;
 }
 
 static int draw(const struct arguments *arguments, const struct kind *kind, const struct csv *csv,
@@ -122,9 +138,6 @@ static int draw(const struct arguments *arguments, const struct kind *kind, cons
     if (curves->columns < kind->least || curves->columns > kind->most) {
         fprintf(stderr, "squeal: plot %s takes %zu to %zu signals\n", kind->name, kind->least, kind->most);
         return EXIT_USAGE;
-    }
-    if (!figure_is_possible()) {
-        return fail("gnuplot is not installed; make setup installs it");
     }
     curves_scale(curves);
     if (!kind->draw(curves, problem)) {
@@ -162,7 +175,7 @@ int command_plot(const struct arguments *arguments)
         kind = strcmp(kinds[i].name, arguments->operands[0]) == 0 ? &kinds[i] : kind;
     }
     if (kind == NULL) {
-        fprintf(stderr, "squeal: plot draws phase, time or spectrum\n");
+        fprintf(stderr, "squeal: plot draws phase, time, spectrum or map\n");
         return EXIT_USAGE;
     }
     const char *file = arguments->operands[1], *slash = strrchr(file, '/');
@@ -172,7 +185,9 @@ int command_plot(const struct arguments *arguments)
     curves.title = slash != NULL ? slash + 1 : file;
     path_name(path, arguments, file, kind->name);
     curves.path = path;
-    const int code = draw(arguments, kind, &csv, &curves);
+    const int code = !figure_is_possible() ? fail("gnuplot is not installed; make setup installs it")
+                     : kind->draw == NULL  ? draw_map(&csv, &curves)
+                                           : draw(arguments, kind, &csv, &curves);
     for (size_t i = 0; i < CURVES_MAX; i++) {
         free(curves.values[i]);
     }

@@ -48,16 +48,20 @@ double figure_tics(double height)
 
 bool figure_is_possible(void) { return system("command -v gnuplot >/dev/null 2>&1") == 0; }
 
-const char *figure_plain(const char *text, char *out, size_t size)
+static const char *clean(const char *text, char *out, size_t size, const char *unwanted)
 {
     size_t i = 0;
 
     for (; text[i] != '\0' && i + 1 < size; i++) {
-        out[i] = strchr("\"\\`{}^_@&~$%", text[i]) != NULL ? ' ' : text[i];
+        const bool is_control = (unsigned char)text[i] < ' ';
+        out[i] = is_control || strchr(unwanted, text[i]) != NULL ? ' ' : text[i];
     }
     out[i] = '\0';
     return out;
 }
+
+const char *figure_plain(const char *text, char *out, size_t size) { return clean(text, out, size, "\"\\`{}^_@&~$%"); }
+const char *figure_label(const char *text, char *out, size_t size) { return clean(text, out, size, "'\"\\`{}^_@&~$%"); }
 
 FILE *figure_open(void)
 {

@@ -54,7 +54,9 @@ void figure_start(FILE *script, const char *path, bool is_svg);
 /* Ends gnuplot. Are both formats there? */
 bool figure_close(FILE *script, const char *path);
 
-/* The text as gnuplot may print it: quotes and the marks of its enhanced text are replaced. */
+/* The text as gnuplot may print it, from wherever it comes: the marks of its enhanced text, and what could end the quotes
+ * around it, become blanks; in single quotes it must be a label. */
 const char *figure_plain(const char *text, char *out, size_t size);
+const char *figure_label(const char *text, char *out, size_t size);
 
 #endif

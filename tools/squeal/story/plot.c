@@ -44,16 +44,23 @@ FILE *plot_script_open(struct story *story)
     return script;
 }
 
-void plot_script_close(struct story *story, FILE *script, const char *name, const char *what)
+void plot_tell(struct story *story, bool is_drawn, const char *name, const char *what)
 {
     char path[STORY_PATH_SIZE];
 
-    if (!figure_close(script, path_of(story, path, name, ""))) {
+    if (!is_drawn) {
         story_fail(story, "gnuplot could not draw %s", name);
         return;
     }
     story_wrote(story, path_of(story, path, name, ".svg"), what);
     story_wrote(story, path_of(story, path, name, ".png"), what);
+}
+
+void plot_script_close(struct story *story, FILE *script, const char *name, const char *what)
+{
+    char path[STORY_PATH_SIZE];
+
+    plot_tell(story, figure_close(script, path_of(story, path, name, "")), name, what);
 }
 
 size_t plot_period_of(const struct act *act)

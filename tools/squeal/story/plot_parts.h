@@ -19,6 +19,9 @@ void plot_picture_start(FILE *script, const struct story *story, const char *nam
 /* The act's title, and under it what motion it ended in. */
 void plot_title_write(FILE *script, const struct act *act);
 
+/* Adds both formats of a picture to the closing list, or tells that it could not be drawn. */
+void plot_tell(struct story *story, bool is_drawn, const char *name, const char *what);
+
 /* Ends gnuplot, checks that both formats are there and adds them to the closing list. */
 void plot_script_close(struct story *story, FILE *script, const char *name, const char *what);
 
