@@ -124,7 +124,8 @@ static void axis_write(FILE *script, const struct tiles_axis *axis, char name)
 
     (void)fprintf(script, "set %crange [%.7g:%.7g]\nset %clabel '%s'\n", name, axis->is_reversed ? high : low,
                   axis->is_reversed ? low : high, name, figure_label(axis->label, words, sizeof words));
-    if (axis->is_log) {
+    /* A negative axis has no logarithm, so its tiles differ in width. */
+    if (axis->is_log && low > 0.0 && high > 0.0) {
         (void)fprintf(script, "set logscale %c\n", name);
     }
     if (axis->format != NULL) {
