@@ -115,6 +115,16 @@ const char *linked_unit(const struct device_row *row)
     return out;
 }
 
+const char *linked_number(float value, char out[DEVICE_TEXT_MAX])
+{
+    if (isfinite(value)) {
+        (void)decimal_format_f32(value, DECIMAL_DIGITS_EXACT, out);
+    } else {
+        (void)strcpy(out, "nan");
+    }
+    return out;
+}
+
 void linked_format_signal(const struct device_row *row, double value, char out[DEVICE_TEXT_MAX])
 {
     const enum signal signal = signals_find(row->symbol, strlen(row->symbol));

@@ -25,6 +25,9 @@ bool linked_read_demand(const struct arguments *arguments, struct input_demand *
 /* A parameter's or signal's unit with a blank before it; "" of a ratio or a choice. */
 const char *linked_unit(const struct device_row *row);
 
+/* A float as the device's console prints it, nan where it makes no sense. Returns out. */
+const char *linked_number(float value, char out[DEVICE_TEXT_MAX]);
+
 /* A signal as a person reads it: a name for a mode and its like. */
 void linked_format_signal(const struct device_row *row, double value, char out[DEVICE_TEXT_MAX]);
 

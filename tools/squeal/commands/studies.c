@@ -1,7 +1,6 @@
-/* Studies on the device: scan, a map as CSV; margin, the borders of squeal; and verdict, what it says of the motion now. */
+/* Studies on the device: scan, a map as CSV, and margin, the borders of squeal. */
 #include "squeal/commands/linked.h"
 
-#include "base/decimal.h"
 #include "base/errors.h"
 #include "sim/detector.h"
 #include "sim/trial.h"
@@ -13,7 +12,7 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { AXES_MAX = 2, POINTS_MAX = 256, SCAN_TRANSIENT = 360, MARGIN_TRANSIENT = 1600, WINDOW = 40, NUMBER_SIZE = 32 };
+enum { AXES_MAX = 2, POINTS_MAX = 256, SCAN_TRANSIENT = 360, MARGIN_TRANSIENT = 1600, WINDOW = 40 };
 
 #define MARGIN_WITHIN 16.0
 
@@ -40,17 +39,6 @@ static int fail_here(const char *problem)
 static const struct device_row *param_of(const struct study *study, int index)
 {
     return device_row(study->device, DEVICE_PARAMS, (size_t)index);
-}
-
-/* A number as the device's console prints it. */
-static const char *number(float value, char out[NUMBER_SIZE])
-{
-    if (isfinite(value)) {
-        (void)decimal_format_f32(value, DECIMAL_DIGITS_EXACT, out);
-    } else {
-        (void)strcpy(out, "nan");
-    }
-    return out;
 }
 
 static bool read_span(const struct arguments *arguments, unsigned transient, struct device_span *span)
@@ -169,17 +157,17 @@ static void write_outcome(FILE *file, const struct device_point *point)
 {
     const float values[] = {point->amplitude_um, point->velocity_mm_s, point->frequency_hz,
                             point->level_db,     point->growth_per_s,  point->growth_error_per_s};
-    char text[NUMBER_SIZE];
+    char text[DEVICE_TEXT_MAX];
 
     (void)fprintf(file, ",%s,%s,%u", detector_propensity_name(point->propensity), detector_class_name(point->motion),
                   point->period);
     for (size_t i = 0; i < sizeof values / sizeof values[0]; i++) {
-        (void)fprintf(file, ",%s", number(values[i], text));
+        (void)fprintf(file, ",%s", linked_number(values[i], text));
     }
     (void)fprintf(file, ",%s,%s,%s,%u,%u", detector_propensity_name(point->predicted),
-                  number(point->predicted_growth_per_s, text), trial_end_name(point->end), point->is_loud ? 1u : 0u,
-                  point->is_undecided ? 1u : 0u);
-    (void)fprintf(file, ",%s,\n", number(point->periods, text));
+                  linked_number(point->predicted_growth_per_s, text), trial_end_name(point->end),
+                  point->is_loud ? 1u : 0u, point->is_undecided ? 1u : 0u);
+    (void)fprintf(file, ",%s,\n", linked_number(point->periods, text));
 }
 
 static void on_point(void *context, const struct device_point *point)
@@ -246,13 +234,13 @@ int command_scan(const struct arguments *arguments)
 
 static void tell_side(const char *name, const struct device_side *side)
 {
-    char border[NUMBER_SIZE], quiet[NUMBER_SIZE], squeal[NUMBER_SIZE];
+    char border[DEVICE_TEXT_MAX], quiet[DEVICE_TEXT_MAX], squeal[DEVICE_TEXT_MAX];
 
     if (isfinite(side->border)) {
-        printf("; %s %s (quiet %s, squeal %s)", name, number(side->border, border), number(side->quiet, quiet),
-               number(side->squeal, squeal));
+        printf("; %s %s (quiet %s, squeal %s)", name, linked_number(side->border, border),
+               linked_number(side->quiet, quiet), linked_number(side->squeal, squeal));
     } else if (isfinite(side->searched)) {
-        printf("; none %s up to %s", name, number(side->searched, border));
+        printf("; none %s up to %s", name, linked_number(side->searched, border));
     }
 }
 
@@ -262,10 +250,10 @@ static void on_border(void *context, const struct device_border *border)
                                          "quiet all about"};
     struct study *study = context;
     const struct device_row *row = param_of(study, border->param);
-    char text[NUMBER_SIZE];
+    char text[DEVICE_TEXT_MAX];
 
     if (row != NULL) {
-        printf("%s = %s%s: %s", row->symbol, number(border->value, text), linked_unit(row),
+        printf("%s = %s%s: %s", row->symbol, linked_number(border->value, text), linked_unit(row),
                border->is_squeal ? "squeal" : "quiet");
         tell_side("below", &border->below);
         tell_side("above", &border->above);
@@ -302,67 +290,5 @@ int command_margin(const struct arguments *arguments)
     int code = linked_open(arguments, &study.device);
     code = code == EXIT_OK ? margin(&study, arguments, within, &span) : code;
     device_close(study.device);
-    return code;
-}
-
-/* --- verdict ------------------------------------------------------------------------------------------------------- */
-
-static void tell_verdict(const struct device_verdict *verdict)
-{
-    static const char *const bands[] = {"none", "groan", "squeal"};
-    const struct {
-        const char *name, *unit;
-        float value;
-    } values[] = {
-        {"amplitude", "um", verdict->amplitude_um},
-        {"velocity", "mm/s", verdict->velocity_mm_s},
-        {"velocity, rms", "mm/s", verdict->velocity_mm_s_rms},
-        {"level", "dB re 1 nm/s", verdict->level_db},
-        {"acceleration", "g", verdict->acceleration_g},
-        {"frequency", "Hz", verdict->frequency_hz},
-        {"level estimate", "dB(A)", verdict->level_dba_estimate},
-        {"growth", "1/s", verdict->growth_per_s},
-        {"growth error", "1/s", verdict->growth_error_per_s},
-        {"stick", "of the time", verdict->stick},
-        {"slip-", "of the time", verdict->slip_minus},
-        {"predicted growth", "1/s", verdict->predicted_growth_per_s},
-        {"predicted touch", "", verdict->predicted_touch_ratio},
-        {"onset touch", "", verdict->onset_touch_ratio},
-        {"t_v10", "s", verdict->t_v10_s},
-        {"sigma", "s/s", verdict->sigma},
-    };
-    char text[NUMBER_SIZE];
-
-    printf("%-17s %s\n%-17s %s\n%-17s %u\n%-17s %s\n%-17s %s\n", "propensity",
-           detector_propensity_name(verdict->propensity), "class", detector_class_name(verdict->motion), "period",
-           verdict->period, "predicted", detector_propensity_name(verdict->predicted), "band",
-           verdict->band < 3 ? bands[verdict->band] : "?");
-    printf("%-17s %s\n%-17s %s\n", "audible", verdict->is_audible ? "yes" : "no", "bistable",
-           verdict->is_bistable ? "yes" : "no");
-    for (size_t i = 0; i < sizeof values / sizeof values[0]; i++) {
-        const bool has_unit = values[i].unit[0] != '\0' && isfinite(values[i].value);
-        printf("%-17s %s%s%s\n", values[i].name, number(values[i].value, text), has_unit ? " " : "",
-               has_unit ? values[i].unit : "");
-    }
-}
-
-int command_verdict(const struct arguments *arguments)
-{
-    struct device *device = NULL;
-    struct device_verdict verdict;
-
-    if (!arguments_has_operands(arguments, 0, 0)) {
-        return EXIT_USAGE;
-    }
-    int code = linked_open(arguments, &device);
-    if (code == EXIT_OK) {
-        const enum device_result result = device_verdict(device, &verdict);
-        if (result == DEVICE_OK) {
-            tell_verdict(&verdict);
-        } else {
-            code = linked_fail(device, result);
-        }
-    }
-    device_close(device);
     return code;
 }
