@@ -42,6 +42,7 @@ BOARDS_LIST := build/tools/boards
 ORACLE     := build/tests/oracle
 CAMPAIGN   := build/tests/frames
 MERIT      := build/tests/merit
+PICTURES   := build/tests/monitor
 
 OBJECTS_IMAGE := $(SOURCES_IMAGE:%.c=$(OUT_BOARD)/%.o)
 OBJECTS_UNIT  := $(patsubst %.c,$(OUT_BOARD)/%.o,$(SOURCES) $(SOURCES_BOARD) $(UNIT_TESTS) tests/target/platform.c)
@@ -49,8 +50,10 @@ OBJECTS_PROBE := $(patsubst %.c,$(OUT_BOARD)/%.o,$(SOURCES) $(SOURCES_BOARD) tes
 OBJECTS_HOST  := $(patsubst %.c,build/unit/%.o,$(SOURCES) $(UNIT_TESTS) tests/unit/platform_host.c)
 OBJECTS_TOOL  := $(SOURCES_TOOL:%.c=build/tools/%.o)
 OBJECTS_LINE  := $(patsubst %.c,build/tools/%.o,$(filter src/base/%,$(SOURCES)) src/protocol/frame.c $(wildcard tests/frames/*.c))
+OBJECTS_PICTURES := $(patsubst %.c,build/tools/%.o,$(wildcard tests/monitor/*.c) $(addprefix tools/squeal/monitor/,canvas.c keys.c \
+                    letters.c lines.c panels.c panels_overlay.c panels_plots.c picture.c screen.c spectrum.c trace.c))
 OBJECTS_MERIT := $(SOURCES_MERIT:%.c=build/tools/%.o)
-OBJECTS       := $(sort $(OBJECTS_IMAGE) $(OBJECTS_UNIT) $(OBJECTS_PROBE) $(OBJECTS_HOST) $(OBJECTS_TOOL) $(OBJECTS_LINE) $(OBJECTS_MERIT))
+OBJECTS       := $(sort $(OBJECTS_IMAGE) $(OBJECTS_UNIT) $(OBJECTS_PROBE) $(OBJECTS_HOST) $(OBJECTS_TOOL) $(OBJECTS_LINE) $(OBJECTS_MERIT) $(OBJECTS_PICTURES))
 
 # The commit's name is kept in a file that changes only when the name does.
 BUILD_ID := $(or $(shell GIT_OPTIONAL_LOCKS=0 git describe --always --dirty 2>/dev/null),unknown)
@@ -81,6 +84,7 @@ build/tools/%.o: %.c
 	$(Q)$(CC) $(CFLAGS_HOSTED) $(CFLAGS_EXTRA) -c $< -o $@
 build/tools/tools/%.o: CFLAGS_EXTRA := -Itools -D_XOPEN_SOURCE=700
 build/tools/tests/merit/%.o: CFLAGS_EXTRA := -I. -Itools
+build/tools/tests/monitor/%.o: CFLAGS_EXTRA := -I. -Itools -D_XOPEN_SOURCE=700
 
 # The compiler must not turn the body of memcpy into a call of memcpy.
 $(OUT_BOARD)/src/base/mem.o: CFLAGS_EXTRA := -fno-tree-loop-distribute-patterns
@@ -120,6 +124,11 @@ $(CAMPAIGN): $(OBJECTS_LINE)
 	$(Q)$(CC) $^ -o $@ -lm
 
 $(MERIT): $(OBJECTS_MERIT)
+	$(call say,LD,$@)
+	$(Q)mkdir -p $(@D)
+	$(Q)$(CC) $^ -o $@ -lm
+
+$(PICTURES): $(OBJECTS_PICTURES)
 	$(call say,LD,$@)
 	$(Q)mkdir -p $(@D)
 	$(Q)$(CC) $^ -o $@ -lm

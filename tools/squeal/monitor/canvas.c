@@ -6,7 +6,7 @@
 
 enum { BRAILLE = 0x2800, FAR_AWAY = 1 << 20 };
 
-static const double FAIR_SHARE = 0.45; /* of an axis that what is shown must fill */
+static const double FAIR_SHARE = 0.6; /* of an axis that what is shown must fill */
 
 void canvas_dot(const struct canvas *canvas, int x, int y, enum tint tint)
 {

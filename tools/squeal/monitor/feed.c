@@ -2,6 +2,7 @@
 #include "squeal/monitor/feed.h"
 
 #include "squeal/monitor/feed_parts.h"
+#include "squeal/port/port.h"
 #include "squeal/support/clock.h"
 
 #include <math.h>
@@ -10,11 +11,14 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const double SLOW_S = 0.25;   /* between two looks at counters and verdict */
 static const double PACE_S = 1.0;    /* over which the pace is measured */
 static const double MESSAGE_S = 6.0; /* that a message stays */
 
-enum { SAMPLES_PER_PERIOD = 16, MANY = 20 /* of a hundred samples lost are too many */ };
+enum {
+    SAMPLES_PER_PERIOD = 16,
+    JUDGED = 2000, /* samples, before it is asked whether the link carries them */
+    MANY = 20      /* of a hundred samples lost are too many */
+};
 
 static const char *const streamed[] = {"x", "xd", "propensity"};
 
@@ -92,13 +96,16 @@ static enum device_result thin_out(struct feed *feed, const struct device_status
     const uint32_t offered = status->offered - feed->offered;
     const uint32_t dropped = status->dropped - feed->dropped;
 
+    if (offered < JUDGED) {
+        return DEVICE_OK;
+    }
     feed->offered = status->offered;
     feed->dropped = status->dropped;
-    if (offered < 100u || dropped <= offered / 100u * MANY || dropped > offered) {
+    if (dropped <= offered / 100u * MANY) {
         return DEVICE_OK;
     }
     feed->every_wanted = 2u * feed->picture->trace.every;
-    feed_say(feed, false, "The link carries no more: samples every %u steps from here on", feed->every_wanted);
+    feed_say(feed, false, "the link carries no more: samples every %u steps", feed->every_wanted);
     return feed_settle(feed, feed_stream(feed));
 }
 
@@ -112,7 +119,9 @@ static void measure_pace(struct feed *feed, const struct device_status *status)
     } else if (now_s - feed->pace_s < PACE_S) {
         return;
     } else {
-        picture->pace = (double)(status->step - feed->pace_step) * (double)status->step_s / (now_s - feed->pace_s);
+        const double pace = (double)(status->step - feed->pace_step) * (double)status->step_s / (now_s - feed->pace_s);
+
+        picture->pace = isfinite(picture->pace) ? picture->pace + 0.3 * (pace - picture->pace) : pace;
     }
     feed->pace_s = now_s;
     feed->pace_step = status->step;
@@ -147,24 +156,33 @@ static enum device_result look_at_signal(struct feed *feed, const char *symbol, 
     return signal < 0 ? DEVICE_OK : device_look(feed->device, signal, value);
 }
 
+/* Without samples it comes this way. */
+static enum device_result look_at_propensity(struct feed *feed)
+{
+    double propensity = (double)feed->picture->propensity;
+    const enum device_result result = look_at_signal(feed, "propensity", &propensity);
+
+    feed->picture->propensity = propensity >= 0.0 && propensity < 256.0 ? (uint8_t)propensity : 0u;
+    return result;
+}
+
 enum device_result feed_look(struct feed *feed)
 {
     struct picture *picture = feed->picture;
-    const double now_s = clock_now_s();
-    double propensity = (double)picture->propensity;
-    enum device_result result = look_at_signal(feed, "N", &picture->input[0].held);
 
-    result = result == DEVICE_OK ? look_at_signal(feed, "v0", &picture->input[1].held) : result;
-    result = result == DEVICE_OK ? look_at_signal(feed, "propensity", &propensity) : result;
-    picture->propensity = propensity >= 0.0 && propensity < 256.0 ? (uint8_t)propensity : 0u;
-    if (result == DEVICE_OK && now_s - feed->slow_s >= SLOW_S) {
-        feed->slow_s = now_s;
-        result = look_at_status(feed);
-    }
-    if (now_s - feed->message_s > MESSAGE_S) {
+    if (clock_now_s() - feed->message_s > MESSAGE_S) {
         picture->message[0] = '\0';
     }
-    return result;
+    switch (feed->question++ % 4u) {
+    case 0u:
+        return look_at_status(feed);
+    case 1u:
+        return look_at_signal(feed, "N", &picture->input[0].held);
+    case 2u:
+        return look_at_signal(feed, "v0", &picture->input[1].held);
+    default:
+        return look_at_propensity(feed);
+    }
 }
 
 static void name_board(struct feed *feed)

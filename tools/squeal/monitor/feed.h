@@ -18,9 +18,9 @@ struct feed {
     double reference[PICTURE_INPUTS]; /* values of the inputs in the set that was loaded */
     uint32_t every_wanted;            /* steps between samples; 0: as many as make a good picture */
     uint32_t set_crc;                 /* of the set that the picture shows */
-    uint32_t offered, dropped;        /* at the last look */
+    uint32_t offered, dropped;        /* when it was last asked whether the link carries them all */
     int params[PICTURE_INPUTS];       /* behind the inputs */
-    double slow_s;                    /* when the slow things were looked at last */
+    unsigned question;                /* which is next */
     double pace_s;                    /* since when the pace is measured, and from which step */
     uint64_t pace_step;
     double message_s; /* when the message came */
@@ -32,7 +32,8 @@ enum device_result feed_open(struct feed *feed, struct device *device, struct pi
                              bool is_as_is);
 void feed_close(struct feed *feed);
 
-/* Looks at everything that does not come by itself; once a frame. */
+/* Looks at something of what does not come by itself; once a frame. One question at a time: a slow device keeps no frame
+ * waiting for long. */
 enum device_result feed_look(struct feed *feed);
 
 enum device_result feed_run_or_stop(struct feed *feed);

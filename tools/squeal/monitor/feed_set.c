@@ -127,7 +127,7 @@ static void forget(struct feed *feed)
     picture_forget(feed->picture);
     feed->pace_step = 0u;
     feed->picture->pace = (double)NAN;
-    feed->slow_s = 0.0;
+    feed->question = 0u;
 }
 
 static enum device_result set_pace(struct feed *feed, double tick_hz, double substeps)
@@ -153,6 +153,7 @@ enum device_result feed_preset(struct feed *feed, size_t preset)
     }
     forget(feed);
     (void)snprintf(feed->picture->preset, sizeof feed->picture->preset, "%.60s", feed->choices[preset].name);
+    feed->picture->choice = preset;
     feed->every_wanted = 0u;
     result = read_status_and_set(feed);
     for (size_t i = 0u; i < PICTURE_INPUTS; i++) {
@@ -169,7 +170,7 @@ enum device_result feed_preset(struct feed *feed, size_t preset)
 
 enum device_result feed_run_or_stop(struct feed *feed)
 {
-    feed->slow_s = 0.0;
+    feed->question = 0u;
     return feed_settle(feed,
                        feed->picture->state == 1u ? device_stop(feed->device, NULL) : device_run(feed->device, NULL));
 }
@@ -201,6 +202,13 @@ enum device_result feed_turn(struct feed *feed, size_t input, int clicks)
     if (result == DEVICE_OK) {
         feed_say(feed, false, "%s = %g %s", shown->symbol, (double)value.value, shown->unit);
         return read_status_and_set(feed);
+    }
+    if (result == DEVICE_REFUSED && device_refusal(feed->device)->low < device_refusal(feed->device)->high) {
+        const struct master_refusal *refusal = device_refusal(feed->device);
+
+        feed_say(feed, true, "%s = %g %s is refused: %g .. %g would do (%s)", shown->symbol, (double)value.value,
+                 shown->unit, (double)refusal->low, (double)refusal->high, error_name((enum error)refusal->error));
+        return DEVICE_OK;
     }
     return feed_settle(feed, result);
 }

@@ -21,6 +21,8 @@ enum {
     DOT = 0x25cf
 };
 
+static const double STILL_SHARE = 1e-4; /* a growth this small a part of the frequency is none */
+
 int panels_width(const char *text)
 {
     int width = 0;
@@ -116,10 +118,12 @@ static size_t list_severity(const struct picture *picture, struct item *items)
     items[2] = (struct item){"amplitude", "", TINT_PLAIN};
     picture_quantity(items[2].value, sizeof items[2].value, severity->amplitude_m, "m");
     items[3] = (struct item){"frequency", "", TINT_PLAIN};
-    picture_quantity(items[3].value, sizeof items[3].value, severity->frequency_hz, "Hz");
+    picture_frequency(items[3].value, sizeof items[3].value, severity->frequency_hz);
     items[4] = (struct item){"growth", "-", TINT_PLAIN};
     if (isfinite(severity->growth_per_s)) {
-        (void)snprintf(items[4].value, sizeof items[4].value, "%+.3g 1/s", severity->growth_per_s);
+        const bool is_still = fabs(severity->growth_per_s) < STILL_SHARE * severity->frequency_hz;
+
+        (void)snprintf(items[4].value, sizeof items[4].value, is_still ? "0 1/s" : "%+.2g 1/s", severity->growth_per_s);
     }
     if (isfinite(severity->stick_share)) {
         items[count] = (struct item){"sticking", "", TINT_PLAIN};
@@ -186,7 +190,7 @@ static void draw_inputs(struct screen *screen, const struct picture *picture, in
     }
 }
 
-/* Text that goes on in the next row when one is full. */
+/* Text that goes on in the next row when one is full; what has no room in the last one is left out. */
 struct flow {
     struct screen *screen;
     int row, col, last_row;
@@ -201,8 +205,11 @@ static void flow_put(struct flow *flow, const char *name, const char *value, enu
         flow->row++;
         flow->col = MARGIN;
     }
+    if (flow->col + width > end) {
+        return;
+    }
     flow->col += screen_text(flow->screen, flow->row, flow->col, end - flow->col, TINT_DIM, name) + 1;
-    flow->col += screen_text(flow->screen, flow->row, flow->col, end - flow->col, tint, value) + 3;
+    flow->col += screen_text(flow->screen, flow->row, flow->col, end - flow->col, tint, value) + 2;
 }
 
 /* What should be 0 stands out where it is not. */
@@ -218,16 +225,20 @@ static void draw_counters(struct screen *screen, const struct picture *picture, 
 {
     const struct picture_counters *counters = &picture->counters;
     struct flow flow = {screen, row, MARGIN, row + COUNTER_ROWS - 1};
-    char text[64];
+    char text[32];
+    char offered[32];
+    char both[72];
 
     flow_count(&flow, "step", picture->step, false);
     picture_quantity(text, sizeof text, (double)picture->step * picture->trace.step_s, "s");
     flow_put(&flow, "t", text, TINT_PLAIN);
     (void)snprintf(text, sizeof text, "%.3g", picture->sigma);
     flow_put(&flow, "sigma", text, TINT_PLAIN);
-    flow_count(&flow, "samples every", picture->trace.every, false);
-    flow_count(&flow, "sent", counters->sent, false);
-    flow_count(&flow, "of", counters->offered, false);
+    flow_count(&flow, "every", picture->trace.every, false);
+    picture_count(text, sizeof text, counters->sent);
+    picture_count(offered, sizeof offered, counters->offered);
+    (void)snprintf(both, sizeof both, "%s of %s", text, offered);
+    flow_put(&flow, "sent", both, TINT_PLAIN);
     flow_count(&flow, "dropped", counters->dropped, true);
     flow_count(&flow, "lost", picture->trace.lost, true);
     flow_count(&flow, "overruns", counters->overruns, true);
@@ -236,6 +247,27 @@ static void draw_counters(struct screen *screen, const struct picture *picture, 
     flow_count(&flow, "saturated", counters->saturations, true);
     flow_count(&flow, "refused", counters->refused, true);
     flow_count(&flow, "CRC", counters->bad_crc, true);
+}
+
+/* A long one takes the row above as well. */
+static void draw_message(struct screen *screen, const struct picture *picture, int row)
+{
+    const enum tint tint = picture->is_refusal ? TINT_WATCH : TINT_PLAIN;
+    const int room = screen->cols - 2 * MARGIN;
+    const char *text = picture->message;
+    size_t length = strlen(text);
+
+    if (panels_width(text) > room) {
+        for (length = (size_t)room; length > 0u && text[length] != ' '; length--) {
+        }
+        length = length > 0u ? length : (size_t)room;
+        for (int col = 0; col < screen->cols; col++) {
+            screen_put(screen, row - 1, col, ' ', TINT_PLAIN);
+        }
+        (void)panels_print(screen, row - 1, MARGIN, room, tint, "%.*s", (int)length, text);
+        text += length + (text[length] == ' ' ? 1u : 0u);
+    }
+    (void)screen_text(screen, row, MARGIN, room, tint, text);
 }
 
 static void draw_bottom(struct screen *screen, const struct picture *picture)
@@ -249,7 +281,7 @@ static void draw_bottom(struct screen *screen, const struct picture *picture)
     int col = MARGIN;
 
     if (picture->message[0] != '\0') {
-        (void)screen_text(screen, row, col, end - col, picture->is_refusal ? TINT_WATCH : TINT_PLAIN, picture->message);
+        draw_message(screen, picture, row);
         return;
     }
     for (size_t i = 0u; i < sizeof hints / sizeof hints[0]; i++) {

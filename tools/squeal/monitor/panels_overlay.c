@@ -6,23 +6,23 @@ enum { PADDING = 2, CHOOSER_NAME_COLS = 20, DIGITS = 9 };
 static const struct {
     const char *keys, *what;
 } help[] = {
-    {"n  N   down up", "brake force: N1 of a step or ramp, else N0"},
-    {"v  V   left right", "speed of the disc: v1 of a step or ramp, else v0"},
-    {"a  A   page up/down", "alpha: slope of friction over speed"},
-    {"", "the set's parameters, live, a twentieth at a time"},
-    {"space", "run or stop"},
-    {"r", "reset: back to step 0 with the same set"},
-    {"p", "choose a preset; 1 to 9 take one of the first"},
-    {"-  +", "pace: model steps a tick, halved or doubled"},
-    {",  .", "samples: twice as many, half as many"},
-    {"[  ]", "time shown in the strip: less, more"},
-    {"h  ?", "this text"},
-    {"q", "quit; what was started for the port ends with it"},
+    {"n N     down up", "brake force: N1 of a step or ramp, else N0"},
+    {"v V     left right", "disc speed: v1 of a step or ramp, else v0"},
+    {"a A     page down up", "slope of friction over speed, alpha"},
+    {"space", "run, stop"},
+    {"r", "reset: step 0, the same set"},
+    {"p", "presets; 1 to 9: one of the first nine"},
+    {"- +", "pace: half, twice as many steps a second"},
+    {", .", "samples: twice as many, half as many"},
+    {"[ ]", "time shown: half, twice as long"},
+    {"h ?", "this text"},
+    {"q", "quit; what was started for the port ends"},
     {"", ""},
-    {"", "A preset runs at 8000 steps a second where it would be"},
-    {"", "slower or faster (its substeps); --as-is leaves it alone."},
-    {"", "No bit of the motion depends on the pace."},
-    {"", "Dots fade with age; v0 marks the disc, where the pad sticks."},
+    {NULL, "The keys change the set, live, a twentieth at a time. A preset"},
+    {NULL, "runs at 8000 steps a second, by its substeps, where its own pace"},
+    {NULL, "would be too slow to watch; --as-is leaves that alone. No bit of"},
+    {NULL, "the motion depends on the pace. Dots fade with age; the dotted"},
+    {NULL, "line is the disc's speed: on it the pad sticks."},
 };
 
 /* A blank field with a margin; returns what is inside. */
@@ -47,8 +47,10 @@ void panels_draw_help(struct screen *screen)
     const struct area area = open_box(screen, COUNT, COLS, " keys ");
 
     for (int i = 0; i < COUNT; i++) {
-        (void)screen_text(screen, area.row + i, area.col, KEY_COLS, TINT_KEY, help[i].keys);
-        (void)screen_text(screen, area.row + i, area.col + (i < 12 ? KEY_COLS : 0), COLS, TINT_PLAIN, help[i].what);
+        const int indent = help[i].keys != NULL ? KEY_COLS : 0;
+
+        (void)screen_text(screen, area.row + i, area.col, indent, TINT_KEY, indent > 0 ? help[i].keys : "");
+        (void)screen_text(screen, area.row + i, area.col + indent, COLS - indent, TINT_PLAIN, help[i].what);
     }
 }
 

@@ -17,7 +17,8 @@ enum {
 /* "title ------ info" across the area. */
 static void draw_title(struct screen *screen, struct area area, const char *title, const char *info)
 {
-    const int width = panels_width(info);
+    const int room = area.cols - panels_width(title) - 3;
+    const int width = panels_width(info) <= room ? panels_width(info) : 0;
     int col = area.col;
 
     col += screen_text(screen, area.row, col, area.cols, TINT_STRONG, title) + 1;
@@ -186,10 +187,10 @@ void panels_draw_spectrum(struct screen *screen, const struct picture *picture, 
     if (picture->power_size > 0u && picture->peak_hz > 0.0) {
         char peak[LABEL_SIZE / 2];
 
-        picture_quantity(peak, sizeof peak, picture->peak_hz, "Hz");
+        picture_frequency(peak, sizeof peak, picture->peak_hz);
         (void)snprintf(info, sizeof info, "peak %s", peak);
     }
-    draw_title(screen, area, "spectrum of the velocity", info);
+    draw_title(screen, area, "spectrum of velocity", info);
     if (picture->power_size == 0u || !(picture->level_db.high > picture->level_db.low)) {
         return;
     }

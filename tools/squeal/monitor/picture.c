@@ -190,6 +190,15 @@ void picture_round(char *out, size_t size, double value, const char *unit)
     append_unit(out, size, value, unit, true);
 }
 
+void picture_frequency(char *out, size_t size, double value_hz)
+{
+    if (value_hz >= 99.5 && value_hz < 99999.5) {
+        (void)snprintf(out, size, "%.0f Hz", value_hz);
+    } else {
+        picture_quantity(out, size, value_hz, "Hz");
+    }
+}
+
 void picture_count(char *out, size_t size, uint64_t value)
 {
     char digits[32];

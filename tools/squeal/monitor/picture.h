@@ -50,6 +50,7 @@ struct picture {
     double steps_per_s; /* as the set has it: tick x substeps; nan while it is not known */
 
     uint8_t propensity;
+    bool is_measured;  /* motion and severity come from the device, not from the samples */
     char motion[96];   /* in words; empty if it is not known */
     char forecast[96]; /* of the closed form; empty if it is not known */
     struct picture_severity severity;
@@ -91,6 +92,9 @@ enum tint picture_tint(uint8_t propensity);
  * what is no number. */
 void picture_quantity(char *out, size_t size, double value, const char *unit);
 void picture_round(char *out, size_t size, double value, const char *unit);
+
+/* A frequency to the Hertz, where it has some hundred. */
+void picture_frequency(char *out, size_t size, double value_hz);
 
 /* A whole number in groups of three digits. */
 void picture_count(char *out, size_t size, uint64_t value);

@@ -116,7 +116,7 @@ void screen_encode(struct screen_style style, uint32_t code, char out[5])
         code = ascii_of(code);
     }
     more = code >= 0x10000u ? 3 : code >= 0x800u ? 2 : code >= 0x80u ? 1 : 0;
-    out[0] = (char)(more == 0 ? code : ((0xf00u >> more) & 0xffu) | code >> (6 * more));
+    out[0] = (char)(more == 0 ? code : ((0xff80u >> more) & 0xffu) | code >> (6 * more));
     for (int i = 1; i <= more; i++) {
         out[i] = (char)(0x80u | (code >> (6 * (more - i)) & 0x3fu));
     }

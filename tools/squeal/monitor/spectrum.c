@@ -59,11 +59,13 @@ void spectrum_of(const double *values, size_t size, double *power)
     static double im[SPECTRUM_SIZE_MAX];
     double mean = 0.0;
 
+    /* The window's own mean, or what is constant would leak into the lowest bins. */
     for (size_t i = 0u; i < size; i++) {
-        mean += values[i] / (double)size;
+        re[i] = 0.5 - 0.5 * cos(2.0 * PI * (double)i / (double)size);
+        mean += values[i] * re[i] / (0.5 * (double)size);
     }
     for (size_t i = 0u; i < size; i++) {
-        re[i] = (values[i] - mean) * (0.5 - 0.5 * cos(2.0 * PI * (double)i / (double)size));
+        re[i] *= values[i] - mean;
         im[i] = 0.0;
     }
     transform(re, im, size);

@@ -94,34 +94,38 @@ static uint64_t count_within(const struct trace *trace, unsigned periods)
     return count;
 }
 
-struct sums {
-    double count, x, xx, xd, xdxd;
-};
-
-/* Ages in [from, to). */
-static struct sums sum_up(const struct trace *trace, uint64_t from, uint64_t to)
+/* About its mean. */
+static double rms_velocity(const struct trace *trace, uint64_t count)
 {
-    struct sums sums = {0.0, 0.0, 0.0, 0.0, 0.0};
-    /* About one of the values, so that a small motion far from 0 loses no digits. */
-    const double x_m = trace_point(trace, from)->x_m;
+    double sum = 0.0;
+    double squares = 0.0;
+    double variance;
 
-    for (uint64_t age = from; age < to; age++) {
-        const struct trace_point *point = trace_point(trace, age);
+    for (uint64_t age = 0u; age < count; age++) {
+        const double xd = trace_point(trace, age)->xd_m_per_s;
 
-        sums.count += 1.0;
-        sums.x += point->x_m - x_m;
-        sums.xx += (point->x_m - x_m) * (point->x_m - x_m);
-        sums.xd += point->xd_m_per_s;
-        sums.xdxd += point->xd_m_per_s * point->xd_m_per_s;
+        sum += xd / (double)count;
+        squares += xd * xd / (double)count;
     }
-    return sums;
+    variance = squares - sum * sum;
+    return sqrt(variance > 0.0 ? variance : 0.0);
 }
 
-static double rms(double count, double sum, double squares)
+/* Of the energy, which does not swing with the motion as its halves do: the newer half of the samples over the older. */
+static double growth(const struct trace *trace, uint64_t count, double middle_m, double frequency_hz)
 {
-    const double variance = squares / count - sum / count * (sum / count);
+    const double omega = 2.0 * 3.14159265358979323846 * frequency_hz;
+    const double span_s = (double)(trace_point(trace, 0u)->step - trace_point(trace, count - 1u)->step) * trace->step_s;
+    double energy[2] = {0.0, 0.0};
 
-    return sqrt(variance > 0.0 ? variance : 0.0);
+    for (uint64_t age = 0u; age < count / 2u * 2u; age++) {
+        const struct trace_point *point = trace_point(trace, age);
+        const double x_m = point->x_m - middle_m;
+        const double xd = point->xd_m_per_s / omega;
+
+        energy[age < count / 2u ? 0 : 1] += x_m * x_m + xd * xd;
+    }
+    return 0.5 * log(energy[0] / energy[1]) / (0.5 * span_s);
 }
 
 static double frequency(const struct trace *trace, uint64_t count, double middle_m)
@@ -150,8 +154,7 @@ struct trace_measure trace_measure(const struct trace *trace, unsigned periods)
     const uint64_t count = count_within(trace, periods);
     const double none = (double)NAN;
     struct trace_measure measure = {none, none, none, none, none, none, none, none};
-    struct sums all, older, newer;
-    double span_s;
+    double middle_m;
 
     if (count < 4u) {
         return measure;
@@ -166,15 +169,11 @@ struct trace_measure trace_measure(const struct trace *trace, unsigned periods)
         measure.xd_low_m_per_s = fmin(measure.xd_low_m_per_s, point->xd_m_per_s);
         measure.xd_high_m_per_s = fmax(measure.xd_high_m_per_s, point->xd_m_per_s);
     }
-    all = sum_up(trace, 0u, count);
-    newer = sum_up(trace, 0u, count / 2u);
-    older = sum_up(trace, count / 2u, count);
-    span_s = (double)(trace_point(trace, 0u)->step - trace_point(trace, count - 1u)->step) * trace->step_s;
+    middle_m = 0.5 * (measure.x_high_m + measure.x_low_m);
     measure.amplitude_m = 0.5 * (measure.x_high_m - measure.x_low_m);
-    measure.velocity_m_per_s = rms(all.count, all.xd, all.xdxd);
-    measure.frequency_hz = frequency(trace, count, 0.5 * (measure.x_high_m + measure.x_low_m));
-    measure.growth_per_s =
-        log(rms(newer.count, newer.x, newer.xx) / rms(older.count, older.x, older.xx)) / (0.5 * span_s);
+    measure.velocity_m_per_s = rms_velocity(trace, count);
+    measure.frequency_hz = frequency(trace, count, middle_m);
+    measure.growth_per_s = growth(trace, count, middle_m, measure.frequency_hz);
     if (!isfinite(measure.growth_per_s)) {
         measure.growth_per_s = none;
     }

@@ -57,7 +57,7 @@ struct trace_measure {
     double amplitude_m;      /* half the range of x */
     double velocity_m_per_s; /* rms about its mean */
     double frequency_hz;     /* of the upward passages of the middle of x */
-    double growth_per_s;     /* of the rms of x about its mean, second half over first */
+    double growth_per_s;     /* of the motion about its middle, second half over first */
     double x_low_m, x_high_m;
     double xd_low_m_per_s, xd_high_m_per_s;
 };
