@@ -48,16 +48,17 @@ static void transform(struct complex *data, size_t count)
     }
 }
 
+/* The mean is the window's own: what is constant leaks into no line. */
 static void window(struct complex *data, const double *samples, size_t count)
 {
     double mean = 0.0;
 
     for (size_t i = 0; i < count; i++) {
-        mean += samples[i] / (double)count;
+        data[i] = (struct complex){HANN_GAIN - HANN_GAIN * cos(2.0 * PI * (double)i / (double)count), 0.0};
+        mean += data[i].re * samples[i] / (HANN_GAIN * (double)count);
     }
     for (size_t i = 0; i < count; i++) {
-        const double weight = 0.5 - 0.5 * cos(2.0 * PI * (double)i / (double)count);
-        data[i] = (struct complex){weight * (samples[i] - mean), 0.0};
+        data[i].re *= samples[i] - mean;
     }
 }
 
