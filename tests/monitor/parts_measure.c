@@ -5,64 +5,65 @@
 #include "squeal/monitor/letters.h"
 #include "squeal/monitor/panels.h"
 #include "squeal/monitor/picture.h"
-#include "squeal/monitor/spectrum.h"
 #include "squeal/monitor/trace.h"
+#include "squeal/plot/spectrum.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 static const double PI = 3.14159265358979323846;
 
 static bool is_near(double value, double wanted, double share) { return fabs(value - wanted) <= share * fabs(wanted); }
 
+/* The definition, term by term. */
+static double slow_amplitude(const double *values, int size, int line)
+{
+    double re = 0.0;
+    double im = 0.0;
+    double mean = 0.0;
+
+    for (int i = 0; i < size; i++) {
+        mean += values[i] * (1.0 - cos(2.0 * PI * i / size)) / size;
+    }
+    for (int i = 0; i < size; i++) {
+        const double windowed = (values[i] - mean) * (0.5 - 0.5 * cos(2.0 * PI * i / size));
+
+        re += windowed * cos(2.0 * PI * line * i / size);
+        im -= windowed * sin(2.0 * PI * line * i / size);
+    }
+    return 4.0 * hypot(re, im) / size;
+}
+
 void parts_check_spectrum(void)
 {
-    enum { SIZE = 1024 };
+    enum { SIZE = 1024, SHORT = 128 };
     static double values[SIZE];
-    static double power[SIZE / 2 + 1];
-    static double slow[SIZE / 2 + 1];
+    struct spectrum spectrum;
     bool is_same = true;
 
     for (int i = 0; i < SIZE; i++) {
         values[i] = 5.0 + 3.0 * cos(2.0 * PI * 100.0 * i / SIZE + 0.7) + 0.03 * sin(2.0 * PI * 300.0 * i / SIZE);
     }
-    spectrum_of(values, SIZE, power);
-    tap_check(is_near(power[100], 4.5, 1e-9), "a sine has its mean square in its bin");
-    tap_check(is_near(power[300], 4.5e-4, 1e-6), "a hundredth of it, a ten thousandth of the power");
-    tap_check(power[0] < 1e-20 && power[200] < 1e-20, "and nothing where there is nothing: the mean is taken away");
-    tap_check(is_near(spectrum_peak(power, SIZE), 100.0, 1e-9), "its frequency");
-    for (int i = 0; i < SIZE; i++) {
-        values[i] = cos(2.0 * PI * 100.37 * i / SIZE);
-    }
-    spectrum_of(values, SIZE, power);
-    tap_check(is_near(spectrum_peak(power, SIZE), 100.37, 2e-4), "between two bins as well");
-    memset(values, 0, sizeof values);
-    spectrum_of(values, SIZE, power);
-    tap_check(spectrum_peak(power, SIZE) == 0.0, "silence has none");
+    tap_check(spectrum_make(&spectrum, values, SIZE, 2048.0) && spectrum.lines == SIZE / 2 && spectrum.step_hz == 2.0,
+              "a spectrum has lines up to half the sampling rate");
+    tap_check(is_near(spectrum.amplitude[100], 3.0, 1e-9) && is_near(spectrum.amplitude[300], 0.03, 1e-6),
+              "a sine has its amplitude on its line");
+    tap_check(spectrum.amplitude[0] < 1e-12 && spectrum.amplitude[1] < 1e-12 && spectrum.amplitude[200] < 1e-12,
+              "and nothing is where there is nothing: what is constant is taken away");
+    tap_check(spectrum_peak(&spectrum) == 100u, "the peak");
+    free(spectrum.amplitude);
 
-    /* The definition, term by term. */
-    for (int i = 0; i < 128; i++) {
-        values[i] = sin(0.3 * i) + 0.2 * cos(1.7 * i * i);
+    for (int i = 0; i < SHORT; i++) {
+        values[i] = 3.0 + sin(0.3 * i) + 0.2 * cos(1.7 * i * i);
     }
-    spectrum_of(values, 128u, power);
-    for (int k = 0; k <= 64; k++) {
-        double re = 0.0;
-        double im = 0.0;
-        double mean = 0.0;
-
-        for (int i = 0; i < 128; i++) {
-            mean += values[i] * (1.0 - cos(2.0 * PI * i / 128.0)) / 128.0;
-        }
-        for (int i = 0; i < 128; i++) {
-            const double windowed = (values[i] - mean) * (0.5 - 0.5 * cos(2.0 * PI * i / 128.0));
-
-            re += windowed * cos(2.0 * PI * k * i / 128.0);
-            im -= windowed * sin(2.0 * PI * k * i / 128.0);
-        }
-        slow[k] = 8.0 * (re * re + im * im) / (128.0 * 128.0);
-        is_same = is_same && fabs(slow[k] - power[k]) < 1e-12;
+    (void)spectrum_make(&spectrum, values, SHORT, 1.0);
+    for (int k = 0; k < SHORT / 2; k++) {
+        is_same = is_same && fabs(slow_amplitude(values, SHORT, k) - spectrum.amplitude[k]) < 1e-12;
     }
+    free(spectrum.amplitude);
     tap_check(is_same, "the fast transform is the slow one");
+    tap_check(!spectrum_make(&spectrum, values, 63u, 1.0), "too few samples have none");
 }
 
 static struct trace trace;
@@ -137,4 +138,13 @@ void parts_check_words(void)
         }
     }
     tap_check(true, "screens of all sizes, with nothing to show");
+
+    /* A frequency between two lines of a spectrum. */
+    trace_clear(&picture.trace, 1e-5, 64u, 4u);
+    for (unsigned i = 1u; i <= 2048u; i++) {
+        trace_add(&picture.trace, 4u * i, 0.0, sin(2.0 * PI * 1234.5 * 4e-5 * i), 1u, 0u);
+    }
+    picture_update(&picture, 80);
+    tap_check(is_near(picture.peak_hz, 1234.5, 2e-4), "the peak's frequency lies between two lines");
+    tap_check(picture.level_db.high == 180.0 && picture.level_db.low == 80.0, "a level axis that holds 177 dB");
 }

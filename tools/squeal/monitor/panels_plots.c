@@ -180,18 +180,17 @@ void panels_draw_spectrum(struct screen *screen, const struct picture *picture, 
     const double sampling_hz = 1.0 / (trace->every * trace->step_s);
     const double normal_hz = 1.0 / (trace->steps_per_period * trace->step_s);
     const struct axis axis = {0.0, axis_round_down(fmin(0.5 * sampling_hz, 4.0 * normal_hz))};
-    const double bins_per_hz = (double)picture->power_size / sampling_hz;
     const int columns = canvas.cols * CANVAS_ACROSS;
     char info[LABEL_SIZE] = "";
 
-    if (picture->power_size > 0u && picture->peak_hz > 0.0) {
+    if (picture->lines > 0u && picture->peak_hz > 0.0) {
         char peak[LABEL_SIZE / 2];
 
         picture_frequency(peak, sizeof peak, picture->peak_hz);
         (void)snprintf(info, sizeof info, "peak %s", peak);
     }
     draw_title(screen, area, "spectrum of velocity", info);
-    if (picture->power_size == 0u || !(picture->level_db.high > picture->level_db.low)) {
+    if (picture->lines == 0u || !(picture->level_db.high > picture->level_db.low)) {
         return;
     }
     (void)panels_print(screen, canvas.row, area.col, PANELS_GUTTER, TINT_DIM, "%5.0f dB", picture->level_db.high);
@@ -199,12 +198,12 @@ void panels_draw_spectrum(struct screen *screen, const struct picture *picture, 
                        picture->level_db.low);
     draw_ends_below(screen, &canvas, &axis, "Hz");
     for (int x = 0; x < columns; x++) {
-        const double from = axis.high * x / columns * bins_per_hz;
-        const double to = axis.high * (x + 1) / columns * bins_per_hz;
+        const double from = axis.high * x / columns / picture->line_hz;
+        const double to = axis.high * (x + 1) / columns / picture->line_hz;
         double power = 0.0;
         int y;
 
-        for (size_t k = (size_t)lround(from); k <= (size_t)lround(to) && k <= picture->power_size / 2u; k++) {
+        for (size_t k = (size_t)lround(from); k <= (size_t)lround(to) && k < picture->lines; k++) {
             power = fmax(power, picture->power[k]);
         }
         y = canvas_down(&canvas, &picture->level_db, picture_level_db(sqrt(power)));

@@ -1,15 +1,19 @@
 /* What is shown is made calm here: axes in round numbers that stay, a spectrum that is smoothed. */
 #include "squeal/monitor/picture.h"
 
+#include "squeal/plot/spectrum.h"
+
 #include <inttypes.h>
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 static const double LEVEL_REFERENCE_M_PER_S = 1e-9;
 static const double LEVEL_STEP_DB = 20.0;
 static const double LEVEL_SPAN_DB = 100.0;
-static const double SMOOTHING = 0.25; /* share of a new spectrum in the one shown */
+static const double LEAST_POWER = 1e-30; /* for its logarithm */
+static const double SMOOTHING = 0.25;    /* share of a new spectrum in the one shown */
 
 void picture_init(struct picture *picture)
 {
@@ -30,7 +34,7 @@ void picture_forget(struct picture *picture)
     picture->severity = (struct picture_severity){none, none, none, none, none, none, none};
     picture->motion[0] = picture->forecast[0] = '\0';
     picture->strip = picture->x = picture->xd = picture->level_db = (struct axis){0.0, 0.0};
-    picture->power_size = 0u;
+    picture->lines = 0u;
     picture->peak_hz = none;
     picture->propensity = 0u;
 }
@@ -70,7 +74,7 @@ static void follow_level(struct picture *picture)
     double top = 0.0;
     double level_db;
 
-    for (size_t k = 1u; k < picture->power_size / 2u; k++) {
+    for (size_t k = 1u; k < picture->lines; k++) {
         top = fmax(top, picture->power[k]);
     }
     level_db = picture_level_db(sqrt(top));
@@ -81,29 +85,50 @@ static void follow_level(struct picture *picture)
     }
 }
 
+/* Between two lines: a parabola through three levels, which is within a hundredth of a line for Hann's window. */
+static double find_peak(const struct picture *picture)
+{
+    const double *power = picture->power;
+    size_t best = 0u;
+    double left, middle, right, curve;
+
+    for (size_t k = 2u; k + 1u < picture->lines; k++) {
+        if (power[k] > 0.0 && power[k] >= power[k - 1u] && power[k] >= power[k + 1u] &&
+            (best == 0u || power[k] > power[best])) {
+            best = k;
+        }
+    }
+    if (best == 0u) {
+        return (double)NAN;
+    }
+    left = log(power[best - 1u] + LEAST_POWER);
+    middle = log(power[best] + LEAST_POWER);
+    right = log(power[best + 1u] + LEAST_POWER);
+    curve = left - 2.0 * middle + right;
+    return ((double)best + (curve < 0.0 ? 0.5 * (left - right) / curve : 0.0)) * picture->line_hz;
+}
+
 static void follow_spectrum(struct picture *picture)
 {
-    static double values[SPECTRUM_SIZE_MAX];
-    static double power[SPECTRUM_SIZE_MAX / 2 + 1];
+    static double values[PICTURE_SAMPLES_MAX];
     const struct trace *trace = &picture->trace;
-    const size_t count = trace_latest(trace, SPECTRUM_SIZE_MAX, NULL);
-    size_t size = SPECTRUM_SIZE_MIN;
+    const size_t count = trace_latest(trace, PICTURE_SAMPLES_MAX, values);
+    struct spectrum spectrum;
 
-    if (count < SPECTRUM_SIZE_MIN) {
+    if (count < PICTURE_SAMPLES_MIN || !spectrum_make(&spectrum, values, count, 1.0 / (trace->every * trace->step_s))) {
         return; /* what was shown last is better than nothing */
     }
-    while (2u * size <= count) {
-        size *= 2u;
-    }
-    (void)trace_latest(trace, size, values);
-    spectrum_of(values, size, power);
-    for (size_t k = 0u; k <= size / 2u; k++) {
+    for (size_t k = 0u; k < spectrum.lines; k++) {
+        const double power = 0.5 * spectrum.amplitude[k] * spectrum.amplitude[k];
+
         picture->power[k] =
-            picture->power_size == size ? picture->power[k] + SMOOTHING * (power[k] - picture->power[k]) : power[k];
+            picture->lines == spectrum.lines ? picture->power[k] + SMOOTHING * (power - picture->power[k]) : power;
     }
-    picture->power_size = size;
+    picture->lines = spectrum.lines;
+    picture->line_hz = spectrum.step_hz;
+    free(spectrum.amplitude);
     follow_level(picture);
-    picture->peak_hz = spectrum_peak(picture->power, size) / ((double)size * trace->every * trace->step_s);
+    picture->peak_hz = find_peak(picture);
 }
 
 void picture_update(struct picture *picture, int cols)

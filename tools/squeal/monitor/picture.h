@@ -7,10 +7,15 @@
 #include <stdint.h>
 
 #include "squeal/monitor/canvas.h"
-#include "squeal/monitor/spectrum.h"
 #include "squeal/monitor/trace.h"
 
-enum { PICTURE_TEXT_MAX = 512, PICTURE_INPUTS = 3, PICTURE_PERIODS = 32 /* of a window to measure over */ };
+enum {
+    PICTURE_TEXT_MAX = 512,
+    PICTURE_INPUTS = 3,
+    PICTURE_PERIODS = 32,       /* of a window to measure over */
+    PICTURE_SAMPLES_MAX = 2048, /* of a spectrum */
+    PICTURE_SAMPLES_MIN = 128
+};
 
 enum picture_overlay { PICTURE_PLAIN, PICTURE_HELP, PICTURE_CHOOSER };
 
@@ -60,8 +65,9 @@ struct picture {
     struct trace trace;
     unsigned merged; /* normal periods in a column of dots of the strip */
     struct axis strip, x, xd, level_db;
-    double power[SPECTRUM_SIZE_MAX / 2 + 1]; /* (m/s)^2 rms, smoothed */
-    size_t power_size;                       /* samples that it was made of; 0 none */
+    double power[PICTURE_SAMPLES_MAX / 2]; /* (m/s)^2, mean square of each line of the spectrum, smoothed */
+    size_t lines;                          /* 0: no spectrum */
+    double line_hz;                        /* from one to the next */
     double peak_hz;
 
     char message[PICTURE_TEXT_MAX]; /* empty: the keys are listed in its place */
