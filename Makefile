@@ -62,7 +62,7 @@ $(shell mkdir -p build && echo '$(BUILD_ID)' >build/build_id)
 endif
 
 # --- Rules ----------------------------------------------------------------------------------------------------------
-.PHONY: all run tool monitor test golden oracle detector noise frames debug check size clean help setup other-images host-image command
+.PHONY: all run tool monitor console test golden oracle detector noise frames debug check size clean help setup other-images host-image command
 .DELETE_ON_ERROR:
 
 all: $(IMAGE) ## build the firmware for BOARD (default mps2-an386)
@@ -140,6 +140,8 @@ $(ORACLE): $(wildcard tests/oracle/*.[ch] tests/oracle/*.def) Makefile | setup
 
 # --- Use ------------------------------------------------------------------------------------------------------------
 ROOT       ?=
+PORT       := $(if $(filter host,$(BOARD)),host,qemu:$(BOARD))
+PRESET     :=
 COMMAND    := $(strip $(BOARD_RUN) $(ROOT)$(IMAGE))
 CASES      ?= tests/golden/paper.csv
 OUT        ?= build/golden
@@ -161,7 +163,10 @@ COUNT      ?= 10000
 run: $(IMAGE) $(TOOL) ## run the demonstration and the map, results in build/run (POINTS= of the map along an axis, 0: none)
 	$(Q)$(TOOL) demo --board $(BOARD) --out build/run $(if $(POINTS),--points $(POINTS)) -- $(COMMAND)
 
-monitor: $(IMAGE) ## talk to the firmware in this terminal (LINK= a path: the link listens on a socket there)
+monitor: $(IMAGE) $(TOOL) ## watch the plant in this terminal, keys turn force and speed (PORT= a device, PRESET= a set)
+	$(Q)$(TOOL) monitor --port $(PORT) $(if $(PRESET),--preset $(PRESET))
+
+console: $(IMAGE) ## talk to the firmware in this terminal (LINK= a path: the link listens on a socket there)
 	@echo "Ctrl-C leaves. The firmware echoes; type help and Enter."
 	@saved=$$(stty -g 2>/dev/null) && trap "stty $$saved" EXIT INT TERM && stty -icanon -echo; \
 	SQUEAL_REALTIME=1 $(COMMAND)
@@ -198,10 +203,10 @@ noise: host-image ## measure how much roughness starts squeal from rest, and how
 frames: $(CAMPAIGN) ## send FRAMES= frames over a line with bit errors BER= (DROP= DOUBLE= SWAP= a byte, PAYLOAD= SEED=)
 	$(Q)$(CAMPAIGN) --frames $(FRAMES) --ber $(BER) --drop $(DROP) --double $(DOUBLE) --swap $(SWAP) --payload $(PAYLOAD) --seed $(SEED)
 
-test: $(IMAGE) $(UNIT_IMAGE) $(PROBE) $(UNIT_HOST) $(TOOL) $(ORACLE) $(CAMPAIGN) $(MERIT) other-images ## run everything that a change must pass
+test: $(IMAGE) $(UNIT_IMAGE) $(PROBE) $(UNIT_HOST) $(TOOL) $(ORACLE) $(CAMPAIGN) $(MERIT) $(PICTURES) other-images ## run everything that a change must pass
 	$(Q)COMMANDS="$$(for board in $(BOARDS); do $(MAKE) -s --no-print-directory BOARD=$$board command; done)"; export COMMANDS; \
 	BOARD=$(BOARD) BOARD_RUN="$(BOARD_RUN)" IMAGE=$(IMAGE) UNIT_IMAGE=$(UNIT_IMAGE) PROBE=$(PROBE) \
-	    UNIT_HOST=$(UNIT_HOST) HOST_IMAGE=build/host/squeal TOOL=$(TOOL) ORACLE=$(CURDIR)/$(ORACLE) CAMPAIGN=$(CAMPAIGN) MERIT=$(CURDIR)/$(MERIT) tools/tap_summary $(wildcard tests/*.t tests/system/*.t)
+	    UNIT_HOST=$(UNIT_HOST) HOST_IMAGE=build/host/squeal TOOL=$(TOOL) ORACLE=$(CURDIR)/$(ORACLE) CAMPAIGN=$(CAMPAIGN) MERIT=$(CURDIR)/$(MERIT) PICTURES=$(CURDIR)/$(PICTURES) tools/tap_summary $(wildcard tests/*.t tests/system/*.t)
 
 tool: $(TOOL) ## build the host tool, build/tools/squeal; see its --help
 

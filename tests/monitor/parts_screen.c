@@ -48,14 +48,15 @@ void parts_check_canvas(void)
     tap_check(canvas_down(&canvas, &axis, 3.0) == 0 && canvas_down(&canvas, &axis, -1.0) == 11,
               "and from the top down");
 
-    tap_check(axis_follow(&followed, -0.13, 9.2) && followed.low == -2.0 && followed.high == 10.0,
+    tap_check(axis_follow(&followed, -0.13, 9.2, 0.1) && followed.low == -2.0 && followed.high == 10.0,
               "an axis ends at round numbers");
-    tap_check(axis_follow(&followed, 0.0, 9.9) && followed.low == -2.0, "and stays while it fits");
-    tap_check(axis_follow(&followed, 4.0, 5.0) && followed.low == 4.0 && followed.high == 5.0,
+    tap_check(axis_follow(&followed, 0.0, 9.9, 0.1) && followed.low == -2.0, "and stays while it fits");
+    tap_check(axis_follow(&followed, 4.0, 5.0, 0.1) && followed.low == 4.0 && followed.high == 5.0,
               "it shrinks to what is much smaller");
-    tap_check(axis_follow(&followed, 5.0, 5.0) && followed.low < 5.0 && followed.high > 5.0,
+    tap_check(axis_follow(&followed, 5.0, 5.0, 0.1) && followed.low < 5.0 && followed.high > 5.0,
               "one value has room about it");
-    tap_check(!axis_follow(&followed, (double)NAN, 1.0) && followed.high > 5.0, "what is no number changes nothing");
+    tap_check(!axis_follow(&followed, (double)NAN, 1.0, 0.1) && followed.high > 5.0,
+              "what is no number changes nothing");
     tap_check(axis_round_down(0.07) == 0.05 && axis_round_down(199.0) == 100.0 && axis_round_down(1000.0) == 1000.0,
               "1, 2, 5");
 }

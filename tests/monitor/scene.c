@@ -78,7 +78,9 @@ void scene_squeal(struct picture *picture)
     picture->pace = 1.0 / 11.6;
     put_samples(picture, 0u, 0u);
     picture->counters = (struct picture_counters){.offered = 16002u, .sent = 16000u};
-    (void)snprintf(picture->motion, sizeof picture->motion, "limit cycle with stick-slip, repeating every period");
+    picture_motion(picture->motion, sizeof picture->motion, 8u, 2u);
+    picture->severity.stick_share = 0.0514;
+    picture->severity.loudness_dba = 101.5;
     (void)snprintf(picture->forecast, sizeof picture->forecast, "closed form: squeal, +30 1/s");
 }
 

@@ -341,7 +341,7 @@ check(tool("id", "--port", "qemu:nonesuch"), PORT, ["no such board; there are: "
 check(tool("id", "--port", "/dev/ttyNONE7"), PORT, "no such device", "a serial line that is not there")
 check(tool("id", "--port", "/dev/null"), PORT, "no serial line", "no serial line at all")
 check(tool("id", "--port", "/dev/ttyS0:1234"), PORT, "no rate of 1234 baud; there are 9600 ", "a rate that is none")
-check(tool("id", "--port", "unix:" + folder + "/none"), PORT, "no such socket; make monitor LINK=", "a socket that is not there")
+check(tool("id", "--port", "unix:" + folder + "/none"), PORT, "no such socket; make console LINK=", "a socket that is not there")
 check(tool("id", "--port", "tcp:127.0.0.1:1"), PORT, "Connection refused", "a closed TCP port")
 check(tool("id", "--port", "tcp:nowhere"), PORT, "tcp:HOST:PORT is wanted", "half a TCP port")
 check(tool("id", "--port", "carrier pigeon"), PORT, "no port has such a name; try host", "no port at all")

@@ -73,22 +73,23 @@ double axis_round_down(double value)
     return value >= 5.0 * round ? 5.0 * round : value >= 2.0 * round ? 2.0 * round : round;
 }
 
-bool axis_follow(struct axis *axis, double low, double high)
+bool axis_follow(struct axis *axis, double low, double high, double least_span)
 {
+    const double lacking = least_span - (high - low);
     double step;
 
     if (!(low <= high) || !(high - low < 1e300)) {
         return false;
     }
+    if (lacking > 0.0) {
+        low -= 0.5 * lacking;
+        high += 0.5 * lacking;
+    }
     if (low >= axis->low && high <= axis->high && high - low >= FAIR_SHARE * (axis->high - axis->low)) {
         return true;
     }
-    step = axis_round_down(fmax((high - low) / 4.0, fmax(fabs(low), fabs(high)) * 1e-6 + 1e-12));
+    step = axis_round_down((high - low) / 4.0);
     axis->low = step * floor(low / step);
     axis->high = step * ceil(high / step);
-    if (!(axis->high - axis->low > step)) {
-        axis->low -= step;
-        axis->high += step;
-    }
     return true;
 }

@@ -181,7 +181,7 @@ enum device_result feed_look(struct feed *feed)
     case 2u:
         return look_at_signal(feed, "v0", &picture->input[1].held);
     default:
-        return look_at_propensity(feed);
+        return feed->lacks_verdict ? look_at_propensity(feed) : feed_look_at_verdict(feed);
     }
 }
 

@@ -12,8 +12,7 @@ struct feed {
     struct device *device;
     struct picture *picture;
     struct picture_choice *choices;
-    bool is_as_is;    /* tick and substeps as the sets have them */
-    bool has_verdict; /* the device measures by itself */
+    bool is_as_is; /* tick and substeps as the sets have them */
     double tick_hz, substeps;
     double reference[PICTURE_INPUTS]; /* values of the inputs in the set that was loaded */
     uint32_t every_wanted;            /* steps between samples; 0: as many as make a good picture */
@@ -21,6 +20,7 @@ struct feed {
     uint32_t offered, dropped;        /* when it was last asked whether the link carries them all */
     int params[PICTURE_INPUTS];       /* behind the inputs */
     unsigned question;                /* which is next */
+    bool lacks_verdict;               /* an older device, which measures nothing by itself */
     double pace_s;                    /* since when the pace is measured, and from which step */
     uint64_t pace_step;
     double message_s; /* when the message came */

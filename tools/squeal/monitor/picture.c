@@ -12,6 +12,8 @@
 static const double LEVEL_REFERENCE_M_PER_S = 1e-9;
 static const double LEVEL_STEP_DB = 20.0;
 static const double LEVEL_SPAN_DB = 100.0;
+static const double LEAST_SHARE = 2e-3;  /* of a place or speed that an axis spans at least */
+static const double LEAST_SPAN = 1e-12;  /* m, m/s */
 static const double LEAST_POWER = 1e-30; /* for its logarithm */
 static const double SMOOTHING = 0.25;    /* share of a new spectrum in the one shown */
 
@@ -44,6 +46,12 @@ double picture_level_db(double velocity_m_per_s)
     return velocity_m_per_s > 0.0 ? 20.0 * log10(velocity_m_per_s / LEVEL_REFERENCE_M_PER_S) : (double)NAN;
 }
 
+/* Motion that is small beside where the pad stands is shown small. */
+static double least_span_m(double low_m, double high_m)
+{
+    return LEAST_SHARE * fmax(fabs(low_m), fabs(high_m)) + LEAST_SPAN;
+}
+
 static void follow_strip(struct picture *picture, int cols)
 {
     const struct trace *trace = &picture->trace;
@@ -65,7 +73,7 @@ static void follow_strip(struct picture *picture, int cols)
             high = fmax(high, (double)period->high_m);
         }
     }
-    (void)axis_follow(&picture->strip, low, high);
+    (void)axis_follow(&picture->strip, low, high, least_span_m(low, high));
 }
 
 /* A fixed span below the highest peak, in steps that are seldom taken. */
@@ -147,11 +155,36 @@ void picture_update(struct picture *picture, int cols)
     if (!(fabs(disc_m_per_s) <= 20.0 * fmax(fabs(measure.xd_low_m_per_s), fabs(measure.xd_high_m_per_s)))) {
         disc_m_per_s = measure.xd_high_m_per_s;
     }
-    (void)axis_follow(&picture->x, measure.x_low_m, measure.x_high_m);
+    (void)axis_follow(&picture->x, measure.x_low_m, measure.x_high_m, least_span_m(measure.x_low_m, measure.x_high_m));
     (void)axis_follow(&picture->xd, fmin(measure.xd_low_m_per_s, disc_m_per_s),
-                      fmax(measure.xd_high_m_per_s, disc_m_per_s));
+                      fmax(measure.xd_high_m_per_s, disc_m_per_s),
+                      LEAST_SHARE * fmax(fabs(picture->input[1].held), 0.0) + LEAST_SPAN);
     follow_strip(picture, cols);
     follow_spectrum(picture);
+}
+
+void picture_motion(char *out, size_t size, uint8_t motion, uint8_t period)
+{
+    static const char *const words[] = {
+        "not settled yet",
+        "at rest",
+        "slipping, with a swing that decays",
+        "slipping, with a swing that grows",
+        "slipping, in step with the normal oscillation",
+        "stick-slip, in step with the normal oscillation",
+        "overtaking the disc, in step with the normal oscillation",
+        "limit cycle without sticking",
+        "limit cycle with stick-slip",
+        "aperiodic",
+        "left its domain",
+    };
+
+    (void)snprintf(out, size, "%s", motion < sizeof words / sizeof words[0] ? words[motion] : "");
+    if (period > 1u && out[0] != '\0') {
+        const size_t length = strlen(out);
+
+        (void)snprintf(out + length, size - length, ", repeating after %u", period);
+    }
 }
 
 const char *picture_propensity(uint8_t propensity)

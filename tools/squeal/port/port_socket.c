@@ -36,7 +36,7 @@ bool port_open_unix(struct port *port, const char *where)
         return true;
     }
     if (errno == ENOENT) {
-        return port_fail(port, "no such socket; make monitor LINK=%s starts a firmware that listens there", where);
+        return port_fail(port, "no such socket; make console LINK=%s starts a firmware that listens there", where);
     }
     if (errno == ECONNREFUSED) {
         return port_fail(port, "nobody listens there any more; start the firmware again");
