@@ -51,7 +51,7 @@ OBJECTS_HOST  := $(patsubst %.c,build/unit/%.o,$(SOURCES) $(UNIT_TESTS) tests/un
 OBJECTS_TOOL  := $(SOURCES_TOOL:%.c=build/tools/%.o)
 OBJECTS_LINE  := $(patsubst %.c,build/tools/%.o,$(filter src/base/%,$(SOURCES)) src/protocol/frame.c $(wildcard tests/frames/*.c))
 OBJECTS_PICTURES := $(patsubst %.c,build/tools/%.o,$(wildcard tests/monitor/*.c) $(addprefix tools/squeal/monitor/,canvas.c keys.c \
-                    letters.c lines.c panels.c panels_overlay.c panels_plots.c picture.c screen.c trace.c) tools/squeal/plot/spectrum.c)
+                    letters.c lines.c panels.c panels_overlay.c panels_plots.c panels_words.c picture.c screen.c trace.c) tools/squeal/plot/spectrum.c)
 OBJECTS_MERIT := $(SOURCES_MERIT:%.c=build/tools/%.o)
 OBJECTS       := $(sort $(OBJECTS_IMAGE) $(OBJECTS_UNIT) $(OBJECTS_PROBE) $(OBJECTS_HOST) $(OBJECTS_TOOL) $(OBJECTS_LINE) $(OBJECTS_MERIT) $(OBJECTS_PICTURES))
 

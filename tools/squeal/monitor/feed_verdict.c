@@ -17,6 +17,12 @@ static void tell_forecast(struct picture *picture, const struct device_verdict *
                    (double)verdict->predicted_growth_per_s, verdict->is_bistable ? ", unless kicked" : "");
 }
 
+/* Within its error it is none. */
+static double growth(const struct device_verdict *verdict)
+{
+    return fabsf(verdict->growth_per_s) <= verdict->growth_error_per_s ? 0.0 : (double)verdict->growth_per_s;
+}
+
 enum device_result feed_look_at_verdict(struct feed *feed)
 {
     struct picture *picture = feed->picture;
@@ -40,7 +46,7 @@ enum device_result feed_look_at_verdict(struct feed *feed)
                                                       .velocity_m_per_s = 1e-3 * (double)verdict.velocity_mm_s_rms,
                                                       .amplitude_m = 1e-6 * (double)verdict.amplitude_um,
                                                       .frequency_hz = (double)verdict.frequency_hz,
-                                                      .growth_per_s = (double)verdict.growth_per_s,
+                                                      .growth_per_s = growth(&verdict),
                                                       .stick_share = (double)verdict.stick,
                                                       .loudness_dba = (double)verdict.level_dba_estimate};
     } else {

@@ -4,7 +4,11 @@
 
 #include "squeal/monitor/panels.h"
 
-enum { PANELS_GUTTER = 9 /* columns for the numbers beside a plot */ };
+enum {
+    PANELS_GUTTER = 9, /* columns for the numbers beside a plot */
+    PANELS_MARGIN = 1, /* columns at either side */
+    PANELS_COUNTER_ROWS = 2
+};
 
 /* A part of the screen. */
 struct area {
@@ -14,6 +18,13 @@ struct area {
 void panels_draw_strip(struct screen *screen, const struct picture *picture, struct area area);
 void panels_draw_portrait(struct screen *screen, const struct picture *picture, struct area area);
 void panels_draw_spectrum(struct screen *screen, const struct picture *picture, struct area area);
+
+/* Rows of text: the first; at row; from row on; the last. */
+void panels_draw_header(struct screen *screen, const struct picture *picture);
+void panels_draw_motion(struct screen *screen, const struct picture *picture, int row);
+void panels_draw_inputs(struct screen *screen, const struct picture *picture, int row);
+void panels_draw_counters(struct screen *screen, const struct picture *picture, int row);
+void panels_draw_bottom(struct screen *screen, const struct picture *picture);
 
 void panels_draw_help(struct screen *screen);
 void panels_draw_chooser(struct screen *screen, const struct picture *picture);
