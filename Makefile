@@ -30,6 +30,8 @@ SOURCES_BOARD := $(sort $(BOARD_SOURCES)) boards/$(BOARD)/board.c
 SOURCES_IMAGE := $(SOURCES) $(wildcard src/app/*.c) $(SOURCES_BOARD)
 SOURCES_TOOL  := $(SOURCES) $(wildcard tools/squeal/*.c tools/squeal/*/*.c)
 SOURCES_MERIT := $(filter-out src/protocol/%,$(SOURCES)) $(addprefix tools/squeal/support/,csv.c fields.c) $(wildcard tests/merit/*.c)
+SOURCES_PICTURES := $(wildcard tests/monitor/*.c) tools/squeal/plot/spectrum.c $(addprefix tools/squeal/monitor/,canvas.c keys.c \
+                    letters.c lines.c panels.c panels_overlay.c panels_plots.c panels_words.c picture.c screen.c trace.c)
 UNIT_TESTS    := $(filter-out tests/unit/platform_host.c,$(wildcard tests/unit/*.c))
 
 OUT_BOARD  := build/$(BOARD)
@@ -50,8 +52,7 @@ OBJECTS_PROBE := $(patsubst %.c,$(OUT_BOARD)/%.o,$(SOURCES) $(SOURCES_BOARD) tes
 OBJECTS_HOST  := $(patsubst %.c,build/unit/%.o,$(SOURCES) $(UNIT_TESTS) tests/unit/platform_host.c)
 OBJECTS_TOOL  := $(SOURCES_TOOL:%.c=build/tools/%.o)
 OBJECTS_LINE  := $(patsubst %.c,build/tools/%.o,$(filter src/base/%,$(SOURCES)) src/protocol/frame.c $(wildcard tests/frames/*.c))
-OBJECTS_PICTURES := $(patsubst %.c,build/tools/%.o,$(wildcard tests/monitor/*.c) $(addprefix tools/squeal/monitor/,canvas.c keys.c \
-                    letters.c lines.c panels.c panels_overlay.c panels_plots.c panels_words.c picture.c screen.c trace.c) tools/squeal/plot/spectrum.c)
+OBJECTS_PICTURES := $(SOURCES_PICTURES:%.c=build/unit/%.o)
 OBJECTS_MERIT := $(SOURCES_MERIT:%.c=build/tools/%.o)
 OBJECTS       := $(sort $(OBJECTS_IMAGE) $(OBJECTS_UNIT) $(OBJECTS_PROBE) $(OBJECTS_HOST) $(OBJECTS_TOOL) $(OBJECTS_LINE) $(OBJECTS_MERIT) $(OBJECTS_PICTURES))
 
@@ -76,7 +77,9 @@ $(OUT_BOARD)/tests/%.o: CFLAGS_EXTRA := -Itests/unit
 build/unit/%.o: %.c
 	$(call say,CC,$@)
 	$(Q)mkdir -p $(@D)
-	$(Q)$(CC) $(CFLAGS_HOSTED) $(SANITIZE) -c $< -o $@
+	$(Q)$(CC) $(CFLAGS_HOSTED) $(CFLAGS_EXTRA) $(SANITIZE) -c $< -o $@
+build/unit/tools/%.o: CFLAGS_EXTRA := -Itools -D_XOPEN_SOURCE=700
+build/unit/tests/monitor/%.o: CFLAGS_EXTRA := -I. -Itools -D_XOPEN_SOURCE=700
 
 build/tools/%.o: %.c
 	$(call say,CC,$@)
@@ -84,7 +87,6 @@ build/tools/%.o: %.c
 	$(Q)$(CC) $(CFLAGS_HOSTED) $(CFLAGS_EXTRA) -c $< -o $@
 build/tools/tools/%.o: CFLAGS_EXTRA := -Itools -D_XOPEN_SOURCE=700
 build/tools/tests/merit/%.o: CFLAGS_EXTRA := -I. -Itools
-build/tools/tests/monitor/%.o: CFLAGS_EXTRA := -I. -Itools -D_XOPEN_SOURCE=700
 
 # The compiler must not turn the body of memcpy into a call of memcpy.
 $(OUT_BOARD)/src/base/mem.o: CFLAGS_EXTRA := -fno-tree-loop-distribute-patterns
@@ -131,7 +133,7 @@ $(MERIT): $(OBJECTS_MERIT)
 $(PICTURES): $(OBJECTS_PICTURES)
 	$(call say,LD,$@)
 	$(Q)mkdir -p $(@D)
-	$(Q)$(CC) $^ -o $@ -lm
+	$(Q)$(CC) $(SANITIZE) $^ -o $@ -lm
 
 $(ORACLE): $(wildcard tests/oracle/*.[ch] tests/oracle/*.def) Makefile | setup
 	$(call say,CC,$@)

@@ -77,7 +77,7 @@ void scene_squeal(struct picture *picture)
     picture->state = 1u;
     picture->pace = 1.0 / 11.6;
     put_samples(picture, 0u, 0u);
-    picture->counters = (struct picture_counters){.offered = 16002u, .sent = 16000u};
+    picture->counters = (struct picture_counters){.offered = 16002u, .sent = 16000u, .refused = 1234567u};
     picture_motion(picture->motion, sizeof picture->motion, 8u, 2u);
     picture->severity.stick_share = 0.0514;
     picture->severity.loudness_dba = 101.5;
