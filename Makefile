@@ -28,10 +28,12 @@ MAKEFILES_READ := $(MAKEFILE_LIST)
 SOURCES       := $(filter-out src/base/mem.c,$(wildcard $(addprefix src/,$(addsuffix /*.c,base model analysis sim protocol))))
 SOURCES_BOARD := $(sort $(BOARD_SOURCES)) boards/$(BOARD)/board.c
 SOURCES_IMAGE := $(SOURCES) $(wildcard src/app/*.c) $(SOURCES_BOARD)
-SOURCES_TOOL  := $(filter src/base/% src/model/% src/analysis/%,$(SOURCES)) $(wildcard tools/squeal/*.c)
-SOURCES_MERIT := $(filter-out src/protocol/%,$(SOURCES)) tools/squeal/csv.c tools/squeal/fields.c $(wildcard tests/merit/*.c)
+SOURCES_TOOL  := $(SOURCES) $(wildcard tools/squeal/*.c tools/squeal/*/*.c)
+SOURCES_MERIT := $(filter-out src/protocol/%,$(SOURCES)) $(addprefix tools/squeal/support/,csv.c fields.c) $(wildcard tests/merit/*.c)
 SOURCES_BENCH := $(filter src/base/% src/model/%,$(SOURCES)) src/protocol/frame.c src/protocol/master.c \
                  $(filter-out %/echo.c,$(wildcard tests/bench/link/*.c))
+SOURCES_PICTURES := $(wildcard tests/monitor/*.c) tools/squeal/plot/spectrum.c $(addprefix tools/squeal/monitor/,canvas.c keys.c \
+                    letters.c lines.c panels.c panels_overlay.c panels_plots.c panels_words.c picture.c screen.c trace.c)
 UNIT_TESTS    := $(filter-out tests/unit/platform_host.c,$(wildcard tests/unit/*.c))
 
 OUT_BOARD  := build/$(BOARD)
@@ -39,13 +41,15 @@ IMAGE      := $(OUT_BOARD)/squeal$(BOARD_SUFFIX)
 UNIT_IMAGE := $(OUT_BOARD)/unit$(BOARD_SUFFIX)
 PROBE      := $(OUT_BOARD)/probe$(BOARD_SUFFIX)
 UNIT_HOST  := build/unit/host
-TOOL       := build/tools/squeal-tool
+TOOL       := build/tools/squeal
+BOARDS_LIST := build/tools/boards
 ORACLE     := build/tests/oracle
 CAMPAIGN   := build/tests/frames
 MERIT      := build/tests/merit
 BENCH_LINK := build/tests/bench-link
 # A board without a UART of its own has no image that is nothing but one.
 ECHO       := $(if $(BOARD_RUN),$(OUT_BOARD)/echo$(BOARD_SUFFIX))
+PICTURES   := build/tests/monitor
 
 OBJECTS_IMAGE := $(SOURCES_IMAGE:%.c=$(OUT_BOARD)/%.o)
 OBJECTS_UNIT  := $(patsubst %.c,$(OUT_BOARD)/%.o,$(SOURCES) $(SOURCES_BOARD) $(UNIT_TESTS) tests/target/platform.c)
@@ -53,10 +57,11 @@ OBJECTS_PROBE := $(patsubst %.c,$(OUT_BOARD)/%.o,$(SOURCES) $(SOURCES_BOARD) tes
 OBJECTS_HOST  := $(patsubst %.c,build/unit/%.o,$(SOURCES) $(UNIT_TESTS) tests/unit/platform_host.c)
 OBJECTS_TOOL  := $(SOURCES_TOOL:%.c=build/tools/%.o)
 OBJECTS_LINE  := $(patsubst %.c,build/tools/%.o,$(filter src/base/%,$(SOURCES)) src/protocol/frame.c $(wildcard tests/frames/*.c))
+OBJECTS_PICTURES := $(SOURCES_PICTURES:%.c=build/unit/%.o)
 OBJECTS_MERIT := $(SOURCES_MERIT:%.c=build/tools/%.o)
 OBJECTS_BENCH := $(SOURCES_BENCH:%.c=build/tools/%.o)
 OBJECTS_ECHO  := $(patsubst %.c,$(OUT_BOARD)/%.o,$(filter src/base/%,$(SOURCES)) $(SOURCES_BOARD) tests/bench/link/echo.c)
-OBJECTS       := $(sort $(OBJECTS_IMAGE) $(OBJECTS_UNIT) $(OBJECTS_PROBE) $(OBJECTS_HOST) $(OBJECTS_TOOL) $(OBJECTS_LINE) $(OBJECTS_MERIT) \
+OBJECTS       := $(sort $(OBJECTS_IMAGE) $(OBJECTS_UNIT) $(OBJECTS_PROBE) $(OBJECTS_HOST) $(OBJECTS_TOOL) $(OBJECTS_LINE) $(OBJECTS_MERIT) $(OBJECTS_PICTURES) \
                         $(OBJECTS_BENCH) $(if $(ECHO),$(OBJECTS_ECHO)))
 
 # The commit's name is kept in a file that changes only when the name does.
@@ -66,7 +71,7 @@ $(shell mkdir -p build && echo '$(BUILD_ID)' >build/build_id)
 endif
 
 # --- Rules ----------------------------------------------------------------------------------------------------------
-.PHONY: all run monitor test golden oracle detector noise frames bench-link bench-link-on debug check size clean help setup other-images host-image command
+.PHONY: all run tool monitor console test golden oracle detector noise frames bench-link bench-link-on debug check size clean help setup other-images host-image command
 .DELETE_ON_ERROR:
 
 all: $(IMAGE) ## build the firmware for BOARD (default mps2-an386)
@@ -80,13 +85,16 @@ $(OUT_BOARD)/tests/%.o: CFLAGS_EXTRA := -Itests/unit
 build/unit/%.o: %.c
 	$(call say,CC,$@)
 	$(Q)mkdir -p $(@D)
-	$(Q)$(CC) $(CFLAGS_HOSTED) $(SANITIZE) -c $< -o $@
+	$(Q)$(CC) $(CFLAGS_HOSTED) $(CFLAGS_EXTRA) $(SANITIZE) -c $< -o $@
+build/unit/tools/%.o: CFLAGS_EXTRA := -Itools -D_XOPEN_SOURCE=700
+build/unit/tests/monitor/%.o: CFLAGS_EXTRA := -I. -Itools -D_XOPEN_SOURCE=700
 
 build/tools/%.o: %.c
 	$(call say,CC,$@)
 	$(Q)mkdir -p $(@D)
 	$(Q)$(CC) $(CFLAGS_HOSTED) $(CFLAGS_EXTRA) -c $< -o $@
-build/tools/tests/merit/%.o: CFLAGS_EXTRA := -I.
+build/tools/tools/%.o: CFLAGS_EXTRA := -Itools -D_XOPEN_SOURCE=700
+build/tools/tests/merit/%.o: CFLAGS_EXTRA := -I. -Itools
 
 # The compiler must not turn the body of memcpy into a call of memcpy.
 $(OUT_BOARD)/src/base/mem.o: CFLAGS_EXTRA := -fno-tree-loop-distribute-patterns
@@ -108,9 +116,18 @@ $(UNIT_HOST): $(OBJECTS_HOST)
 	$(call say,LD,$@)
 	$(Q)$(CC) $(SANITIZE) $^ -o $@
 
-$(TOOL): $(OBJECTS_TOOL)
+$(TOOL): $(OBJECTS_TOOL) | $(BOARDS_LIST)
 	$(call say,LD,$@)
 	$(Q)$(CC) $^ -o $@ -lm
+
+# How the tool starts each board: written anew each time, changed only when it differs.
+$(BOARDS_LIST): boards-list
+	$(Q)mkdir -p $(@D)
+	$(Q)for board in $(BOARDS); do $(MAKE) -s --no-print-directory BOARD=$$board LINK=@LINK@ ROOT=$(CURDIR)/ command || exit; \
+	done >$@.new
+	$(Q)if cmp -s $@ $@.new; then rm $@.new; else mv $@.new $@; fi
+.PHONY: boards-list
+boards-list:
 
 $(CAMPAIGN): $(OBJECTS_LINE)
 	$(call say,LD,$@)
@@ -127,13 +144,21 @@ $(BENCH_LINK): $(OBJECTS_BENCH)
 	$(Q)mkdir -p $(@D)
 	$(Q)$(CC) $^ -o $@
 
+$(PICTURES): $(OBJECTS_PICTURES)
+	$(call say,LD,$@)
+	$(Q)mkdir -p $(@D)
+	$(Q)$(CC) $(SANITIZE) $^ -o $@ -lm
+
 $(ORACLE): $(wildcard tests/oracle/*.[ch] tests/oracle/*.def) Makefile | setup
 	$(call say,CC,$@)
 	$(Q)mkdir -p $(@D)
 	$(Q)$(CC) -std=c99 -O2 -ffp-contract=off -Wall -Wextra -D_POSIX_C_SOURCE=200809L -o $@ $(filter %.c,$^) -lm
 
 # --- Use ------------------------------------------------------------------------------------------------------------
-COMMAND    := $(strip $(BOARD_RUN) $(IMAGE))
+ROOT       ?=
+PORT       := $(if $(filter host,$(BOARD)),host,qemu:$(BOARD))
+PRESET     :=
+COMMAND    := $(strip $(BOARD_RUN) $(ROOT)$(IMAGE))
 CASES      ?= tests/golden/paper.csv
 OUT        ?= build/golden
 ARITH      ?= f32
@@ -153,9 +178,12 @@ COUNT      ?= 10000
 TURNS      ?= 5000
 
 run: $(IMAGE) $(TOOL) ## run the demonstration and the map, results in build/run (POINTS= of the map along an axis, 0: none)
-	$(Q)$(TOOL) run --board $(BOARD) --out build/run $(if $(POINTS),--points $(POINTS)) -- $(COMMAND)
+	$(Q)$(TOOL) demo --board $(BOARD) --out build/run $(if $(POINTS),--points $(POINTS)) -- $(COMMAND)
 
-monitor: $(IMAGE) ## talk to the firmware in this terminal (LINK= a path: the link listens on a socket there)
+monitor: $(IMAGE) $(TOOL) ## watch the plant in this terminal, keys turn force and speed (PORT= a device, PRESET= a set)
+	$(Q)$(TOOL) monitor --port $(PORT) $(if $(PRESET),--preset $(PRESET))
+
+console: $(IMAGE) ## talk to the firmware in this terminal (LINK= a path: the link listens on a socket there)
 	@echo "Ctrl-C leaves. The firmware echoes; type help and Enter."
 	@saved=$$(stty -g 2>/dev/null) && trap "stty $$saved" EXIT INT TERM && stty -icanon -echo; \
 	SQUEAL_REALTIME=1 $(COMMAND)
@@ -201,11 +229,13 @@ bench-link: ## count turns of lockstep a second, beside what the line alone take
 bench-link-on: $(IMAGE) $(ECHO) $(BENCH_LINK)
 	$(Q)$(BENCH_LINK) --turns $(TURNS) --socket $(LINK) -- $(COMMAND) $(if $(ECHO),-- $(BOARD_RUN) $(ECHO))
 
-test: $(IMAGE) $(UNIT_IMAGE) $(PROBE) $(UNIT_HOST) $(TOOL) $(ORACLE) $(CAMPAIGN) $(MERIT) $(BENCH_LINK) $(ECHO) other-images ## run everything that a change must pass
+test: $(IMAGE) $(UNIT_IMAGE) $(PROBE) $(UNIT_HOST) $(TOOL) $(ORACLE) $(CAMPAIGN) $(MERIT) $(PICTURES) $(BENCH_LINK) $(ECHO) other-images ## run everything that a change must pass
 	$(Q)COMMANDS="$$(for board in $(BOARDS); do $(MAKE) -s --no-print-directory BOARD=$$board command; done)"; export COMMANDS; \
 	BOARD=$(BOARD) BOARD_RUN="$(BOARD_RUN)" IMAGE=$(IMAGE) UNIT_IMAGE=$(UNIT_IMAGE) PROBE=$(PROBE) \
 	    UNIT_HOST=$(UNIT_HOST) HOST_IMAGE=build/host/squeal TOOL=$(TOOL) ORACLE=$(CURDIR)/$(ORACLE) CAMPAIGN=$(CAMPAIGN) MERIT=$(CURDIR)/$(MERIT) \
-	    BENCH_LINK=$(BENCH_LINK) tools/tap_summary $(wildcard tests/*.t tests/system/*.t)
+	    PICTURES=$(CURDIR)/$(PICTURES) BENCH_LINK=$(BENCH_LINK) tools/tap_summary $(wildcard tests/*.t tests/system/*.t)
+
+tool: $(TOOL) ## build the host tool, build/tools/squeal; see its --help
 
 host-image:
 	$(Q)$(MAKE) --no-print-directory BOARD=host all

@@ -4,11 +4,7 @@ BOARD_CFLAGS  := -D_POSIX_C_SOURCE=200809L
 BOARD_LDFLAGS :=
 BOARD_LIBS    :=
 BOARD_SOURCES := boards/host/socket.c
-BOARD_RUN     :=
+# Where the link listens, if anywhere.
+BOARD_RUN     := $(if $(LINK),env SQUEAL_LINK=unix:$(LINK))
 BOARD_SIZE    := size
 BOARD_SUFFIX  :=
-
-# Where the link listens, for make monitor and its like.
-ifneq ($(LINK),)
-export SQUEAL_LINK := unix:$(LINK)
-endif

@@ -65,12 +65,17 @@ static void append_REAL(struct text *text, const struct scale *scale, float valu
     }
 }
 
-static void append_MODE(struct text *text, const struct scale *scale, int value)
+const char *signals_mode_name(int mode)
 {
     static const char *const names[] = {"slip-", "stick", "slip+", "fault"};
 
+    return mode >= PLANT_SLIP_MINUS && mode <= SIGNAL_MODE_FAULT ? names[mode - PLANT_SLIP_MINUS] : "";
+}
+
+static void append_MODE(struct text *text, const struct scale *scale, int value)
+{
     (void)scale;
-    text_write(text, names[value - PLANT_SLIP_MINUS]);
+    text_write(text, signals_mode_name(value));
 }
 
 static void append_PROPENSITY(struct text *text, const struct scale *scale, uint8_t value)

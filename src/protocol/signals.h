@@ -50,6 +50,9 @@ extern const struct signal_info signals_table[SIGNAL_COUNT];
 /* Finds a signal by its name of the given length; SIGNAL_COUNT if there is none. [MAIN] */
 enum signal signals_find(const char *name, size_t length);
 
+/* The name of a mode, slip- to SIGNAL_MODE_FAULT; "" of any other number. [ANY] */
+const char *signals_mode_name(int mode);
+
 /* Appends the value as text, at most width characters; nan where there is none. scale is that of the
  * sample's reset. [MAIN] */
 void signals_append(struct text *text, enum signal signal, const struct sample *sample, const struct scale *scale);

@@ -3,7 +3,7 @@
 #define MERIT_SET_H
 
 #include "model/params.h"
-#include "tools/squeal/csv.h"
+#include "squeal/support/csv.h"
 
 struct set {
 #define INPUT(field, name) double name;

@@ -12,7 +12,7 @@ import tempfile
 import time
 
 HERE = os.path.dirname(os.path.abspath(__file__))
-TOOL = os.environ.get("TOOL", "build/tools/squeal-tool")
+TOOL = os.environ.get("TOOL", "build/tools/squeal")
 FAKE = [sys.executable, os.path.join(HERE, "fake_firmware.py")]
 LIMIT_S = 180
 
@@ -274,7 +274,7 @@ def map_tests(tap, out, story):
                "board fake" in text, "says what it shows", run)
 
     master, slave = os.openpty()
-    run = subprocess.Popen([TOOL, "run", "--board", "fake", "--out", out, "--acts", "1", "--points", "6", "--", *FAKE, "--slow"],
+    run = subprocess.Popen([TOOL, "demo", "--board", "fake", "--out", out, "--acts", "1", "--points", "6", "--", *FAKE, "--slow"],
                            stdout=subprocess.PIPE, stderr=slave, stdin=subprocess.DEVNULL, universal_newlines=True,
                            env={**os.environ, "PATH": out + "/nothing"})
     os.close(slave)
@@ -292,7 +292,7 @@ def map_tests(tap, out, story):
            known["counted_by_the_device"]["trials"] == cut, "what had come by then is kept")
 
     pid_file = out + "/pid"
-    run = subprocess.Popen([TOOL, "run", "--board", "fake", "--out", out, "--acts", "1", "--points", "6", "--limit", "9", "--",
+    run = subprocess.Popen([TOOL, "demo", "--board", "fake", "--out", out, "--acts", "1", "--points", "6", "--limit", "9", "--",
                             *FAKE, "--mute", "scan", "--pid-file", pid_file], stdout=subprocess.PIPE, stderr=subprocess.DEVNULL,
                            stdin=subprocess.DEVNULL)
     read_until(run.stdout.fileno(), b"each from its start")
@@ -333,7 +333,7 @@ def run_tests(tap, folder):
     out = folder + "/run"
 
     def story(*fake, more=("--acts", "2,5", "--points", "0"), env=None):
-        return subprocess.run([TOOL, "run", "--board", "fake", "--out", out, "--limit", "20", *more, "--", *FAKE, *fake],
+        return subprocess.run([TOOL, "demo", "--board", "fake", "--out", out, "--limit", "20", *more, "--", *FAKE, *fake],
                               stdout=subprocess.PIPE, stderr=subprocess.PIPE, stdin=subprocess.DEVNULL,
                               universal_newlines=True, timeout=LIMIT_S, env=env)
 
@@ -406,7 +406,7 @@ def run_tests(tap, folder):
     os.symlink("/dev/full", out + "/state.csv")
     run = story()
     tap.ok(run.returncode == 1 and "state.csv: No space left on device" in run.stderr, "a full disk", run)
-    run = tool("run", "--board", "fake", "--out", folder + "/a/b", "--", *FAKE)
+    run = tool("demo", "--board", "fake", "--out", folder + "/a/b", "--", *FAKE)
     tap.ok(run.returncode == 1 and run.stderr == "squeal: %s/a/b: No such file or directory\n" % folder,
            "a missing folder", run)
     os.remove(out + "/state.csv")
@@ -415,10 +415,10 @@ def run_tests(tap, folder):
         run = subprocess.run([TOOL, "--help"], stdout=full, stderr=subprocess.PIPE, universal_newlines=True)
     tap.ok(run.returncode == 1 and "standard output: No space left on device" in run.stderr, "a full standard output")
     for acts in ("0", "6", "1,", "1;2", ""):
-        tap.ok(tool("run", "--board", "b", "--out", out, "--acts", acts, "--", *FAKE).returncode == 2,
+        tap.ok(tool("demo", "--board", "b", "--out", out, "--acts", acts, "--", *FAKE).returncode == 2,
                "usage: --acts '%s'" % acts)
     for points in ("-1", "257", "many"):
-        tap.ok(tool("run", "--board", "b", "--out", out, "--points", points, "--", *FAKE).returncode == 2,
+        tap.ok(tool("demo", "--board", "b", "--out", out, "--points", points, "--", *FAKE).returncode == 2,
                "usage: --points " + points)
 
 

@@ -1,46 +1,15 @@
-/* squeal: the host's side of the firmware. It only talks to the console; what a brake does is computed on the device.
- */
-#include "children.h"
-#include "golden.h"
-#include "options.h"
-#include "story.h"
+/* squeal: the host's side of the firmware. What a brake does is computed on the device. */
+#include "squeal/exits.h"
+#include "squeal/subcommands.h"
+#include "squeal/support/arguments.h"
+#include "squeal/support/children.h"
+#include "squeal/support/printable.h"
 
 #include <errno.h>
 #include <stdio.h>
 #include <string.h>
 
-static const struct {
-    const char *name;
-    int (*run)(int argc, char **argv);
-} subcommands[] = {{"golden", golden_main}, {"run", story_main}};
-
-static const char help[] = "usage: squeal-tool golden --cases IN.csv --out OUT [options] -- FIRMWARE...\n"
-                           "       squeal-tool run --board NAME --out DIRECTORY [options] -- FIRMWARE...\n"
-                           "\n"
-                           "FIRMWARE... is the command line that starts a firmware with its console on standard\n"
-                           "input and output: a host build, or an emulator with its image.\n"
-                           "\n"
-                           "golden  runs every case of a table and compares it with the table's reference columns\n"
-                           "  --out OUT        a CSV file, or a folder for one that is called like the table\n"
-                           "  --spp N          model steps per normal period (64)\n"
-                           "  --normal M       exact or rk4 (rk4)\n"
-                           "  --method M       event or naive, which goes with rk4 only (event)\n"
-                           "  --arith A        number format of the plant (f32)\n"
-                           "  --asymptotic     also run to the attractor; compares size, frequency and verdict\n"
-                           "  --jobs J         firmware processes at a time (2)\n"
-                           "  --limit S        seconds that one answer may take (600)\n"
-                           "\n"
-                           "run     has the device tell its story; writes samples, pictures, sound and a record\n"
-                           "  --board NAME     name of the board, for the record\n"
-                           "  --acts LIST      acts to run, such as 2 or 1,3,5 (1,2,3,4,5)\n"
-                           "  --points N       points of the map along each axis; 0 for no map (20)\n"
-                           "  --limit S        seconds that one answer may take (600)\n"
-                           "\n"
-                           "examples:\n"
-                           "  squeal-tool golden --cases tests/golden/paper.csv --out paper.csv -- build/host/squeal\n"
-                           "  squeal-tool run --board host --out build/host/run -- build/host/squeal\n"
-                           "\n"
-                           "exit codes: 0 all went well, 1 something failed or differed, 2 the command line is wrong\n";
+enum { SHOWN_SIZE = 96 };
 
 /* What was printed counts only if it arrived; a full disk behind standard output is a failure too. */
 static int output_check(int code)
@@ -53,21 +22,37 @@ static int output_check(int code)
     return code;
 }
 
+static bool is_help(const char *word)
+{
+    return strcmp(word, "--help") == 0 || strcmp(word, "-h") == 0 || strcmp(word, "help") == 0;
+}
+
 int main(int argc, char **argv)
 {
-    if (argc == 2 && (strcmp(argv[1], "--help") == 0 || strcmp(argv[1], "-h") == 0 || strcmp(argv[1], "help") == 0)) {
-        (void)fputs(help, stdout);
+    struct arguments arguments;
+    char shown[SHOWN_SIZE];
+
+    if (argc < 2) {
+        fprintf(stderr, "squeal: which subcommand? --help lists them\n");
+        return EXIT_USAGE;
+    }
+    if (is_help(argv[1])) {
+        subcommands_help();
+        return output_check(EXIT_OK);
+    }
+    const struct subcommand *subcommand = subcommands_find(argv[1]);
+    if (subcommand == NULL) {
+        fprintf(stderr, "squeal: no subcommand '%s'; --help lists them\n",
+                printable_copy(shown, sizeof shown, argv[1]));
+        return EXIT_USAGE;
+    }
+    if (!arguments_read(&arguments, subcommand, argc - 2, argv + 2)) {
+        return EXIT_USAGE;
+    }
+    if (arguments.wants_help) {
+        subcommands_help_one(subcommand);
         return output_check(EXIT_OK);
     }
     children_guard();
-    for (size_t i = 0; argc >= 2 && i < sizeof subcommands / sizeof subcommands[0]; i++) {
-        if (strcmp(argv[1], subcommands[i].name) == 0) {
-            return output_check(subcommands[i].run(argc - 2, argv + 2));
-        }
-    }
-    fprintf(stderr,
-            argc < 2 ? "squeal: which subcommand? --help lists them%s\n"
-                     : "squeal: no subcommand '%s'; --help lists them\n",
-            argc < 2 ? "" : argv[1]);
-    return EXIT_USAGE;
+    return output_check(subcommand->run(&arguments));
 }
