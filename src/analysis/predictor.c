@@ -1,6 +1,7 @@
 /* Closed-form prediction. Everything here is in the model's units: see model/scale.h. */
 #include "analysis/predictor.h"
 
+#include "analysis/floquet.h"
 #include "base/fmath.h"
 #include "model/sine.h"
 
@@ -75,17 +76,6 @@ static float onset_amplitude(const struct params *params, const struct scale *sc
     return hypotenuse(free.y, free.w);
 }
 
-/* Growth of permanent slip: negative damping, and the first tongue of parametric resonance at Z = 1/2 where the normal
- * force swings by the share A of its mean. */
-static float slip_rate(const struct scale *scale, const struct finish *finish, float share)
-{
-    const float detuning = fmath_sqrt(scale->stiffness) - 0.5f;
-    const float pump = share * finish->slope * 0.25f;
-    const float inside = pump * pump - detuning * detuning;
-
-    return -0.5f * (scale->damping + finish->slope) + (inside > 0.0f ? fmath_sqrt(inside) : 0.0f);
-}
-
 /* Response of the pad to a normal oscillation of amplitude 1 at a multiple of wn, per unit of friction. */
 static float transfer(const struct scale *scale, float damping, float frequency)
 {
@@ -158,7 +148,8 @@ struct prediction predictor_predict(const struct params *params, const struct sc
     const float forced = finish.friction * transfer(scale, scale->damping + finish.slope, 1.0f);
     struct prediction prediction;
 
-    prediction.rate = slip_rate(scale, &finish, share);
+    prediction.rate =
+        floquet_rate_closed(&(struct floquet_problem){scale->damping, finish.slope, scale->stiffness, share});
     prediction.touch_ratio = 0.0f;
     prediction.onset_touch_ratio = 0.0f;
     if (finish.speed > 0.0f) {
