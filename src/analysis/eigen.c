@@ -8,7 +8,7 @@ struct eigen eigen_of(float damping, float stiffness)
     const float inside = stiffness - half * half;
 
     if (inside > 0.0f) {
-        return (struct eigen){-half, fmath_sqrt(inside), half / fmath_sqrt(stiffness)};
+        return (struct eigen){0.0f - half, fmath_sqrt(inside), half / fmath_sqrt(stiffness)};
     }
     return (struct eigen){-half + fmath_sqrt(-inside), 0.0f,
                           stiffness > 0.0f ? half / fmath_sqrt(stiffness) : (damping < 0.0f ? -1.0f : 1.0f)};

@@ -270,6 +270,8 @@ static void command_verdict(struct console *console)
 }
 
 static void command_input(struct console *console) { steering_obey(console); }
+
+static void command_analyse(struct console *console) { analyse_obey(console); }
 static void command_scan(struct console *console) { study_scan_obey(console); }
 static void command_margin(struct console *console) { study_margin_obey(console); }
 static void command_occurrence(struct console *console) { study_occurrence_obey(console); }
