@@ -30,6 +30,7 @@ SOURCES_BOARD := $(sort $(BOARD_SOURCES)) boards/$(BOARD)/board.c
 SOURCES_IMAGE := $(SOURCES) $(wildcard src/app/*.c) $(SOURCES_BOARD)
 SOURCES_TOOL  := $(filter src/base/% src/model/% src/analysis/%,$(SOURCES)) $(wildcard tools/squeal/*.c)
 SOURCES_MERIT := $(filter-out src/protocol/%,$(SOURCES)) tools/squeal/csv.c tools/squeal/fields.c $(wildcard tests/merit/*.c)
+SOURCES_CONVERGE := $(filter-out src/protocol/%,$(SOURCES)) $(filter-out tests/oracle/main.c,$(wildcard tests/oracle/*.c)) $(wildcard tests/converge/*.c) tools/squeal/broken.c
 UNIT_TESTS    := $(filter-out tests/unit/platform_host.c,$(wildcard tests/unit/*.c))
 
 OUT_BOARD  := build/$(BOARD)
@@ -41,6 +42,7 @@ TOOL       := build/tools/squeal-tool
 ORACLE     := build/tests/oracle
 CAMPAIGN   := build/tests/frames
 MERIT      := build/tests/merit
+CONVERGE   := build/tests/converge
 
 OBJECTS_IMAGE := $(SOURCES_IMAGE:%.c=$(OUT_BOARD)/%.o)
 OBJECTS_UNIT  := $(patsubst %.c,$(OUT_BOARD)/%.o,$(SOURCES) $(SOURCES_BOARD) $(UNIT_TESTS) tests/target/platform.c)
@@ -49,7 +51,8 @@ OBJECTS_HOST  := $(patsubst %.c,build/unit/%.o,$(SOURCES) $(UNIT_TESTS) tests/un
 OBJECTS_TOOL  := $(SOURCES_TOOL:%.c=build/tools/%.o)
 OBJECTS_LINE  := $(patsubst %.c,build/tools/%.o,$(filter src/base/%,$(SOURCES)) src/protocol/frame.c $(wildcard tests/frames/*.c))
 OBJECTS_MERIT := $(SOURCES_MERIT:%.c=build/tools/%.o)
-OBJECTS       := $(sort $(OBJECTS_IMAGE) $(OBJECTS_UNIT) $(OBJECTS_PROBE) $(OBJECTS_HOST) $(OBJECTS_TOOL) $(OBJECTS_LINE) $(OBJECTS_MERIT))
+OBJECTS_CONVERGE := $(SOURCES_CONVERGE:%.c=build/tools/%.o)
+OBJECTS       := $(sort $(OBJECTS_IMAGE) $(OBJECTS_UNIT) $(OBJECTS_PROBE) $(OBJECTS_HOST) $(OBJECTS_TOOL) $(OBJECTS_LINE) $(OBJECTS_MERIT) $(OBJECTS_CONVERGE))
 
 # The commit's name is kept in a file that changes only when the name does.
 BUILD_ID := $(or $(shell GIT_OPTIONAL_LOCKS=0 git describe --always --dirty 2>/dev/null),unknown)
@@ -58,7 +61,7 @@ $(shell mkdir -p build && echo '$(BUILD_ID)' >build/build_id)
 endif
 
 # --- Rules ----------------------------------------------------------------------------------------------------------
-.PHONY: all run monitor test golden oracle detector noise frames debug check size clean help setup other-images host-image command
+.PHONY: all run monitor test golden oracle detector noise converge frames debug check size clean help setup other-images host-image command
 .DELETE_ON_ERROR:
 
 all: $(IMAGE) ## build the firmware for BOARD (default mps2-an386)
@@ -78,7 +81,7 @@ build/tools/%.o: %.c
 	$(call say,CC,$@)
 	$(Q)mkdir -p $(@D)
 	$(Q)$(CC) $(CFLAGS_HOSTED) $(CFLAGS_EXTRA) -c $< -o $@
-build/tools/tests/merit/%.o: CFLAGS_EXTRA := -I.
+build/tools/tests/merit/%.o build/tools/tests/converge/%.o: CFLAGS_EXTRA := -I.
 
 # The compiler must not turn the body of memcpy into a call of memcpy.
 $(OUT_BOARD)/src/base/mem.o: CFLAGS_EXTRA := -fno-tree-loop-distribute-patterns
@@ -109,6 +112,11 @@ $(CAMPAIGN): $(OBJECTS_LINE)
 	$(Q)$(CC) $^ -o $@ -lm
 
 $(MERIT): $(OBJECTS_MERIT)
+	$(call say,LD,$@)
+	$(Q)mkdir -p $(@D)
+	$(Q)$(CC) $^ -o $@ -lm
+
+$(CONVERGE): $(OBJECTS_CONVERGE)
 	$(call say,LD,$@)
 	$(Q)mkdir -p $(@D)
 	$(Q)$(CC) $^ -o $@ -lm
@@ -171,16 +179,21 @@ $(MERIT_OUT)/cases.csv: $(MERIT) draw
 .PHONY: draw
 draw:
 
+converge: $(CONVERGE) ## error against steps per period of ours and other methods, table and picture in build/converge
+	$(Q)mkdir -p build/converge
+	$(Q)$(CONVERGE) --out build/converge | tee build/converge/table.txt
+	$(Q)gnuplot build/converge/converge.gp && echo "build/converge/converge.svg .png .csv"
+
 noise: host-image ## measure how much roughness starts squeal from rest, and how much a stable brake bears
 	$(Q)tools/starting_noise build/host/squeal
 
 frames: $(CAMPAIGN) ## send FRAMES= frames over a line with bit errors BER= (DROP= DOUBLE= SWAP= a byte, PAYLOAD= SEED=)
 	$(Q)$(CAMPAIGN) --frames $(FRAMES) --ber $(BER) --drop $(DROP) --double $(DOUBLE) --swap $(SWAP) --payload $(PAYLOAD) --seed $(SEED)
 
-test: $(IMAGE) $(UNIT_IMAGE) $(PROBE) $(UNIT_HOST) $(TOOL) $(ORACLE) $(CAMPAIGN) $(MERIT) other-images ## run everything that a change must pass
+test: $(IMAGE) $(UNIT_IMAGE) $(PROBE) $(UNIT_HOST) $(TOOL) $(ORACLE) $(CAMPAIGN) $(MERIT) $(CONVERGE) other-images ## run everything that a change must pass
 	$(Q)COMMANDS="$$(for board in $(BOARDS); do $(MAKE) -s --no-print-directory BOARD=$$board command; done)"; export COMMANDS; \
 	BOARD=$(BOARD) BOARD_RUN="$(BOARD_RUN)" IMAGE=$(IMAGE) UNIT_IMAGE=$(UNIT_IMAGE) PROBE=$(PROBE) \
-	    UNIT_HOST=$(UNIT_HOST) HOST_IMAGE=build/host/squeal TOOL=$(TOOL) ORACLE=$(CURDIR)/$(ORACLE) CAMPAIGN=$(CAMPAIGN) MERIT=$(CURDIR)/$(MERIT) tools/tap_summary $(wildcard tests/*.t tests/system/*.t)
+	    UNIT_HOST=$(UNIT_HOST) HOST_IMAGE=build/host/squeal TOOL=$(TOOL) ORACLE=$(CURDIR)/$(ORACLE) CAMPAIGN=$(CAMPAIGN) MERIT=$(CURDIR)/$(MERIT) CONVERGE=$(CURDIR)/$(CONVERGE) tools/tap_summary $(wildcard tests/*.t tests/system/*.t)
 
 host-image:
 	$(Q)$(MAKE) --no-print-directory BOARD=host all
