@@ -34,6 +34,7 @@ SOURCES_BENCH := $(filter src/base/% src/model/%,$(SOURCES)) src/protocol/frame.
                  $(filter-out %/echo.c,$(wildcard tests/bench/link/*.c))
 SOURCES_PICTURES := $(wildcard tests/monitor/*.c) tools/squeal/plot/spectrum.c $(addprefix tools/squeal/monitor/,canvas.c keys.c \
                     letters.c lines.c panels.c panels_overlay.c panels_plots.c panels_words.c picture.c screen.c trace.c)
+SOURCES_CONVERGE := $(filter-out src/protocol/%,$(SOURCES)) $(filter-out tests/oracle/main.c,$(wildcard tests/oracle/*.c)) $(wildcard tests/converge/*.c) tools/squeal/support/broken.c
 UNIT_TESTS    := $(filter-out tests/unit/platform_host.c,$(wildcard tests/unit/*.c))
 
 OUT_BOARD  := build/$(BOARD)
@@ -50,6 +51,7 @@ BENCH_LINK := build/tests/bench-link
 # A board without a UART of its own has no image that is nothing but one.
 ECHO       := $(if $(BOARD_RUN),$(OUT_BOARD)/echo$(BOARD_SUFFIX))
 PICTURES   := build/tests/monitor
+CONVERGE   := build/tests/converge
 
 OBJECTS_IMAGE := $(SOURCES_IMAGE:%.c=$(OUT_BOARD)/%.o)
 OBJECTS_UNIT  := $(patsubst %.c,$(OUT_BOARD)/%.o,$(SOURCES) $(SOURCES_BOARD) $(UNIT_TESTS) tests/target/platform.c)
@@ -59,9 +61,10 @@ OBJECTS_TOOL  := $(SOURCES_TOOL:%.c=build/tools/%.o)
 OBJECTS_LINE  := $(patsubst %.c,build/tools/%.o,$(filter src/base/%,$(SOURCES)) src/protocol/frame.c $(wildcard tests/frames/*.c))
 OBJECTS_PICTURES := $(SOURCES_PICTURES:%.c=build/unit/%.o)
 OBJECTS_MERIT := $(SOURCES_MERIT:%.c=build/tools/%.o)
+OBJECTS_CONVERGE := $(SOURCES_CONVERGE:%.c=build/tools/%.o)
 OBJECTS_BENCH := $(SOURCES_BENCH:%.c=build/tools/%.o)
 OBJECTS_ECHO  := $(patsubst %.c,$(OUT_BOARD)/%.o,$(filter src/base/%,$(SOURCES)) $(SOURCES_BOARD) tests/bench/link/echo.c)
-OBJECTS       := $(sort $(OBJECTS_IMAGE) $(OBJECTS_UNIT) $(OBJECTS_PROBE) $(OBJECTS_HOST) $(OBJECTS_TOOL) $(OBJECTS_LINE) $(OBJECTS_MERIT) $(OBJECTS_PICTURES) \
+OBJECTS       := $(sort $(OBJECTS_IMAGE) $(OBJECTS_UNIT) $(OBJECTS_PROBE) $(OBJECTS_HOST) $(OBJECTS_TOOL) $(OBJECTS_LINE) $(OBJECTS_MERIT) $(OBJECTS_PICTURES) $(OBJECTS_CONVERGE) \
                         $(OBJECTS_BENCH) $(if $(ECHO),$(OBJECTS_ECHO)))
 
 # The commit's name is kept in a file that changes only when the name does.
@@ -71,7 +74,7 @@ $(shell mkdir -p build && echo '$(BUILD_ID)' >build/build_id)
 endif
 
 # --- Rules ----------------------------------------------------------------------------------------------------------
-.PHONY: all run tool monitor console test golden oracle detector noise frames bench-link bench-link-on debug check size clean help setup other-images host-image command
+.PHONY: all run tool monitor console test golden oracle detector noise converge frames bench-link bench-link-on debug check size clean help setup other-images host-image command
 .DELETE_ON_ERROR:
 
 all: $(IMAGE) ## build the firmware for BOARD (default mps2-an386)
@@ -94,7 +97,7 @@ build/tools/%.o: %.c
 	$(Q)mkdir -p $(@D)
 	$(Q)$(CC) $(CFLAGS_HOSTED) $(CFLAGS_EXTRA) -c $< -o $@
 build/tools/tools/%.o: CFLAGS_EXTRA := -Itools -D_XOPEN_SOURCE=700
-build/tools/tests/merit/%.o: CFLAGS_EXTRA := -I. -Itools
+build/tools/tests/merit/%.o build/tools/tests/converge/%.o: CFLAGS_EXTRA := -I. -Itools
 
 # The compiler must not turn the body of memcpy into a call of memcpy.
 $(OUT_BOARD)/src/base/mem.o: CFLAGS_EXTRA := -fno-tree-loop-distribute-patterns
@@ -148,6 +151,11 @@ $(PICTURES): $(OBJECTS_PICTURES)
 	$(call say,LD,$@)
 	$(Q)mkdir -p $(@D)
 	$(Q)$(CC) $(SANITIZE) $^ -o $@ -lm
+
+$(CONVERGE): $(OBJECTS_CONVERGE)
+	$(call say,LD,$@)
+	$(Q)mkdir -p $(@D)
+	$(Q)$(CC) $^ -o $@ -lm
 
 $(ORACLE): $(wildcard tests/oracle/*.[ch] tests/oracle/*.def) Makefile | setup
 	$(call say,CC,$@)
@@ -214,6 +222,11 @@ $(MERIT_OUT)/cases.csv: $(MERIT) draw
 .PHONY: draw
 draw:
 
+converge: $(CONVERGE) ## error against steps per period of ours and other methods, table and picture in build/converge
+	$(Q)mkdir -p build/converge
+	$(Q)$(CONVERGE) --out build/converge | tee build/converge/table.txt
+	$(Q)gnuplot build/converge/converge.gp && echo "build/converge/converge.svg .png .csv"
+
 noise: host-image ## measure how much roughness starts squeal from rest, and how much a stable brake bears
 	$(Q)tools/starting_noise build/host/squeal
 
@@ -229,11 +242,11 @@ bench-link: ## count turns of lockstep a second, beside what the line alone take
 bench-link-on: $(IMAGE) $(ECHO) $(BENCH_LINK)
 	$(Q)$(BENCH_LINK) --turns $(TURNS) --socket $(LINK) -- $(COMMAND) $(if $(ECHO),-- $(BOARD_RUN) $(ECHO))
 
-test: $(IMAGE) $(UNIT_IMAGE) $(PROBE) $(UNIT_HOST) $(TOOL) $(ORACLE) $(CAMPAIGN) $(MERIT) $(PICTURES) $(BENCH_LINK) $(ECHO) other-images ## run everything that a change must pass
+test: $(IMAGE) $(UNIT_IMAGE) $(PROBE) $(UNIT_HOST) $(TOOL) $(ORACLE) $(CAMPAIGN) $(MERIT) $(PICTURES) $(CONVERGE) $(BENCH_LINK) $(ECHO) other-images ## run everything that a change must pass
 	$(Q)COMMANDS="$$(for board in $(BOARDS); do $(MAKE) -s --no-print-directory BOARD=$$board command; done)"; export COMMANDS; \
 	BOARD=$(BOARD) BOARD_RUN="$(BOARD_RUN)" IMAGE=$(IMAGE) UNIT_IMAGE=$(UNIT_IMAGE) PROBE=$(PROBE) \
 	    UNIT_HOST=$(UNIT_HOST) HOST_IMAGE=build/host/squeal TOOL=$(TOOL) ORACLE=$(CURDIR)/$(ORACLE) CAMPAIGN=$(CAMPAIGN) MERIT=$(CURDIR)/$(MERIT) \
-	    PICTURES=$(CURDIR)/$(PICTURES) BENCH_LINK=$(BENCH_LINK) tools/tap_summary $(wildcard tests/*.t tests/system/*.t)
+	    PICTURES=$(CURDIR)/$(PICTURES) CONVERGE=$(CURDIR)/$(CONVERGE) BENCH_LINK=$(BENCH_LINK) tools/tap_summary $(wildcard tests/*.t tests/system/*.t)
 
 tool: $(TOOL) ## build the host tool, build/tools/squeal; see its --help
 

@@ -1,6 +1,7 @@
 /* Closed-form prediction. Everything here is in the model's units: see model/scale.h. */
 #include "analysis/predictor.h"
 
+#include "analysis/floquet.h"
 #include "base/fmath.h"
 #include "model/sine.h"
 
@@ -9,14 +10,6 @@
 #define RESPONSE_MAX 1024.0f /* no finite response is trusted beyond it */
 #define BOUNCE_GAIN 64.0f    /* of a bouncing pad, whose contact is no sine */
 
-/* The set at the end of its profiles. */
-struct finish {
-    float load, speed; /* n and |v0| */
-    float friction;    /* mu at v0 */
-    float slope;       /* local slope of friction times n: eps n, 0 on the floor */
-    bool is_on_floor;
-};
-
 /* Free normal oscillation: deviation from the load's own solution. */
 struct oscillation {
     float y, w;
@@ -24,11 +17,11 @@ struct oscillation {
 
 static float hypotenuse(float a, float b) { return fmath_sqrt(a * a + b * b); }
 
-static struct finish find_finish(const struct params *params, const struct scale *scale)
+static struct predictor_finish find_finish(const struct params *params, const struct scale *scale)
 {
     const bool load_ends = (int)params->load_profile == LOAD_STEP || (int)params->load_profile == LOAD_RAMP;
     const bool speed_ends = (int)params->speed_profile != SPEED_CONSTANT;
-    struct finish finish;
+    struct predictor_finish finish;
 
     finish.load = (load_ends ? params->load_end_n : params->load_n) / scale->load_n;
     finish.speed = fmath_abs(speed_ends ? params->speed_end_m_per_s : params->speed_m_per_s) / scale->speed_m_per_s;
@@ -36,6 +29,7 @@ static struct finish find_finish(const struct params *params, const struct scale
     finish.is_on_floor = scale->has_floor && finish.friction <= scale->friction_floor;
     finish.friction = fmath_abs(finish.is_on_floor ? scale->friction_floor : finish.friction);
     finish.slope = finish.is_on_floor ? 0.0f : scale->friction_slope * finish.load;
+    finish.share = 0.0f;
     return finish;
 }
 
@@ -75,17 +69,6 @@ static float onset_amplitude(const struct params *params, const struct scale *sc
     return hypotenuse(free.y, free.w);
 }
 
-/* Growth of permanent slip: negative damping, and the first tongue of parametric resonance at Z = 1/2 where the normal
- * force swings by the share A of its mean. */
-static float slip_rate(const struct scale *scale, const struct finish *finish, float share)
-{
-    const float detuning = fmath_sqrt(scale->stiffness) - 0.5f;
-    const float pump = share * finish->slope * 0.25f;
-    const float inside = pump * pump - detuning * detuning;
-
-    return -0.5f * (scale->damping + finish->slope) + (inside > 0.0f ? fmath_sqrt(inside) : 0.0f);
-}
-
 /* Response of the pad to a normal oscillation of amplitude 1 at a multiple of wn, per unit of friction. */
 static float transfer(const struct scale *scale, float damping, float frequency)
 {
@@ -95,8 +78,8 @@ static float transfer(const struct scale *scale, float damping, float frequency)
 }
 
 /* Speed of the tangential transient that starts with the load. */
-static float transient_speed(const struct params *params, const struct scale *scale, const struct finish *finish,
-                             float amplitude)
+static float transient_speed(const struct params *params, const struct scale *scale,
+                             const struct predictor_finish *finish, float amplitude)
 {
     const float z = fmath_sqrt(scale->stiffness);
     const float damping = scale->damping + finish->slope;
@@ -117,26 +100,28 @@ static float transient_speed(const struct params *params, const struct scale *sc
 }
 
 /* Damping takes the free normal oscillation away; a pad that is let go without load does not come back. */
-static bool normal_motion_ends(const struct params *params, const struct scale *scale, const struct finish *finish)
+static bool normal_motion_ends(const struct params *params, const struct scale *scale,
+                               const struct predictor_finish *finish)
 {
     return scale->normal_damping > 0.0f || (finish->load == 0.0f && (int)params->contact == CONTACT_LIFT);
 }
 
 /* An undamped pad that lifts off bounces for ever: its contact force is no longer a sine, and no closed form serves. */
-static bool bounces(const struct params *params, const struct finish *finish, float onset)
+static bool bounces(const struct params *params, const struct predictor_finish *finish, float onset)
 {
     return (int)params->contact == CONTACT_LIFT && finish->load > 0.0f && onset > finish->load;
 }
 
 /* Motion on the floor that reaches back across the knee, where friction falls and feeds it: that of the onset is enough. */
-static bool crosses_knee(const struct scale *scale, const struct prediction *prediction, const struct finish *finish)
+static bool crosses_knee(const struct scale *scale, const struct prediction *prediction,
+                         const struct predictor_finish *finish)
 {
     const float slowest = finish->speed * (1.0f - fmath_max(prediction->touch_ratio, prediction->onset_touch_ratio));
 
     return prediction->is_bistable && scale->friction + scale->friction_slope * slowest > scale->friction_floor;
 }
 
-static enum predictor_verdict judge(const struct prediction *prediction, const struct finish *finish)
+static enum predictor_verdict judge(const struct prediction *prediction, const struct predictor_finish *finish)
 {
     if (finish->speed == 0.0f) {
         return PREDICTION_UNKNOWN;
@@ -148,17 +133,27 @@ static enum predictor_verdict judge(const struct prediction *prediction, const s
                                                                                                : PREDICTION_QUIET;
 }
 
+struct predictor_finish predictor_finish(const struct params *params, const struct scale *scale)
+{
+    struct predictor_finish finish = find_finish(params, scale);
+
+    if (finish.load > 0.0f && !normal_motion_ends(params, scale, &finish)) {
+        finish.share = onset_amplitude(params, scale) / finish.load;
+    }
+    return finish;
+}
+
 struct prediction predictor_predict(const struct params *params, const struct scale *scale)
 {
-    const struct finish finish = find_finish(params, scale);
+    const struct predictor_finish finish = predictor_finish(params, scale);
     const struct predictor_response response = predictor_response(params, scale);
     const float onset = onset_amplitude(params, scale);
     const float lasting = normal_motion_ends(params, scale, &finish) ? 0.0f : onset;
-    const float share = finish.load > 0.0f ? lasting / finish.load : 0.0f;
     const float forced = finish.friction * transfer(scale, scale->damping + finish.slope, 1.0f);
     struct prediction prediction;
 
-    prediction.rate = slip_rate(scale, &finish, share);
+    prediction.rate =
+        floquet_rate_closed(&(struct floquet_problem){scale->damping, finish.slope, scale->stiffness, finish.share});
     prediction.touch_ratio = 0.0f;
     prediction.onset_touch_ratio = 0.0f;
     if (finish.speed > 0.0f) {
@@ -177,7 +172,7 @@ struct prediction predictor_predict(const struct params *params, const struct sc
 
 struct predictor_response predictor_response(const struct params *params, const struct scale *scale)
 {
-    const struct finish finish = find_finish(params, scale);
+    const struct predictor_finish finish = find_finish(params, scale);
     const float damping = scale->damping + finish.slope;
     const float friction = fmath_max(scale->friction, finish.friction);
     struct predictor_response response = {friction * transfer(scale, damping, 1.0f), 0.0f, 0.0f};

@@ -27,6 +27,15 @@ struct prediction {
     bool is_bistable;        /* quiet from rest, but a kick across the friction floor's knee may start squeal */
 };
 
+/* The state that the profiles of a set lead to. */
+struct predictor_finish {
+    float load, speed; /* n and |v0| */
+    float friction;    /* mu at v0 */
+    float slope;       /* local slope of friction times n: eps n, 0 on the floor */
+    float share;       /* A: amplitude of the normal oscillation that lasts, over the load */
+    bool is_on_floor;
+};
+
 /* What the forced motion is worth, for the detector: speeds in the model's units. */
 struct predictor_response {
     float gain;          /* speed of the pad per speed of the normal oscillation at wn */
@@ -36,6 +45,8 @@ struct predictor_response {
 
 /* Prediction for the state that the profiles of a checked set lead to. [MAIN] */
 struct prediction predictor_predict(const struct params *params, const struct scale *scale);
+
+struct predictor_finish predictor_finish(const struct params *params, const struct scale *scale);
 
 struct predictor_response predictor_response(const struct params *params, const struct scale *scale);
 

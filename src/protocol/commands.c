@@ -276,6 +276,8 @@ static void command_verdict(struct console *console)
 }
 
 static void command_input(struct console *console) { steering_obey(console); }
+
+static void command_analyse(struct console *console) { analyse_obey(console); }
 static void command_scan(struct console *console) { studying_scan(console); }
 static void command_margin(struct console *console) { studying_margin(console); }
 static void command_occurrence(struct console *console) { studying_occurrence(console); }

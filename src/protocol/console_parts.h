@@ -67,6 +67,9 @@ bool streaming_admits(struct console *console, const struct params *params);
 /* a controller's part by hand, */
 void steering_obey(struct console *console);
 
+/* what needs no integration, */
+void analyse_obey(struct console *console);
+
 /* and the set. */
 void settings_list(struct console *console);
 void settings_get(struct console *console);
