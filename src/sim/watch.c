@@ -7,20 +7,20 @@
 enum { SHARE_BITS = 30 };
 
 #define STEP_MAX_S 2e4f /* a longer one is over any limit too */
+#define HASTE 1.000001f /* what is rounded in the steps of a ramp must not make it late */
 
 static uint64_t limit_of(float silence_s)
 {
     return silence_s > 0.0f ? (uint64_t)fixed_times_float(1, silence_s, WATCH_TIME_BITS) : WATCH_NEVER;
 }
 
-/* A step of the ramp is rounded up, so that the force is gone in time. */
 static struct watch_pace pace_of(float step_s, float ramp_s)
 {
-    const float part = ramp_s > step_s ? step_s / ramp_s : 1.0f;
+    const float part = fmath_min(HASTE * step_s / fmath_max(ramp_s, step_s), 1.0f);
     struct watch_pace pace;
 
     pace.time = (uint64_t)fixed_times_float(1, fmath_min(step_s, STEP_MAX_S), WATCH_TIME_BITS);
-    pace.ramp = part < 1.0f ? (uint64_t)fixed_times_float(1, part, WATCH_TIME_BITS) + 1u : WATCH_ALL;
+    pace.ramp = (uint64_t)fixed_times_float(1, part, WATCH_TIME_BITS);
     return pace;
 }
 

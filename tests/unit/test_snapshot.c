@@ -83,7 +83,7 @@ static void check_going_on(float arith)
 
     executive_init(&other, ARITH_F32);
     for (unsigned i = 0u; i < sizeof sets / sizeof sets[0]; i++) {
-        const uint32_t before = plants_scaled(100u + tap_random(&state_of_dice) % 40000u, 300u);
+        const uint32_t before = plants_scaled(100u + tap_random(&state_of_dice) % 20000u, 300u);
 
         open_brake(&one, arith, sets[i]);
         demand(&one, 2500.0f, before / 2u);
@@ -96,7 +96,7 @@ static void check_going_on(float arith)
         take(&one);
         memset(&other.sim, 0xa5, sizeof other.sim);
         memset(&other.inputs_waiting, 0xa5, sizeof other.inputs_waiting);
-        ok = put_back(&other) == ERROR_OK && go_on_alike(plants_scaled(20000u, 1000u)) && ok;
+        ok = put_back(&other) == ERROR_OK && go_on_alike(plants_scaled(6000u, 1000u)) && ok;
     }
     tap_check(ok, "left at any step, it goes on with the same bits, verdicts and counters");
 }
@@ -211,7 +211,7 @@ static void check_forged(float arith, const char *assignments)
     static uint8_t good[SNAPSHOT_SIZE];
     uint32_t dice = 11u;
     uint32_t taken = 0u;
-    const uint32_t rounds = plants_scaled(2500u, 60u);
+    const uint32_t rounds = plants_scaled(1500u, 60u);
 
     open_brake(&one, arith, assignments);
     demand(&one, 2500.0f, 7000u);
