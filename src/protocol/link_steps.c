@@ -10,8 +10,6 @@ enum { FIELD_COUNT, FIELD_STEP_DEMAND }; /* of STEP */
 enum { FIELD_AT, FIELD_INPUT_DEMAND };   /* of INPUT; a demand has the four that follow */
 enum { DEMAND_LOAD_KIND, DEMAND_SPEED_KIND, DEMAND_LOAD, DEMAND_SPEED };
 
-enum { DEMAND_STARTS = 0x80 }; /* beside the kind of load of a STEP */
-
 static enum link_progress answer_where(struct link *link)
 {
     struct executive_report report;
@@ -55,7 +53,7 @@ enum link_progress link_stop(struct link *link)
 static bool read_demand(struct link *link, uint8_t first, bool may_start, struct input_demand *demand)
 {
     const uint8_t byte = bytes_get_u8(&link->arguments);
-    const uint8_t load = may_start ? byte & (uint8_t)~DEMAND_STARTS : byte;
+    const uint8_t load = may_start ? byte & (uint8_t)~LINK_STARTS : byte;
     const uint8_t speed = bytes_get_u8(&link->arguments);
 
     demand->starts = load != byte;

@@ -53,7 +53,7 @@ bool master_step(struct master *master, struct text *out, uint32_t count, const 
     struct bytes_writer fields = {.bytes = bytes, .capacity = sizeof bytes};
 
     bytes_put_u32(&fields, count);
-    bytes_put_u8(&fields, (uint8_t)demand->load);
+    bytes_put_u8(&fields, (uint8_t)(demand->load | (demand->starts ? LINK_STARTS : 0)));
     bytes_put_u8(&fields, (uint8_t)demand->speed);
     bytes_put_f32(&fields, demand->load_value);
     bytes_put_f32(&fields, demand->speed_value);

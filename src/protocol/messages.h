@@ -37,6 +37,9 @@ enum { LINK_SYMBOL_WIDTH = 24, LINK_UNIT_WIDTH = 48, LINK_HELP_WIDTH = 149 };
 /* What READ reads. */
 enum link_place { LINK_IN_FORCE, LINK_STAGED, LINK_NOW, LINK_PLACE_COUNT };
 
+/* Beside the kind of load of a STEP: an explicit start, which leaves the safe state. */
+enum { LINK_STARTS = 0x80 };
+
 /* Of STEP's reply. */
 enum { LINK_IS_FAULT = 1, LINK_WAS_CLAMPED = 2, LINK_WAS_CUT = 4, LINK_IS_STALE = 8, LINK_IS_SAFE = 16 };
 

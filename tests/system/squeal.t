@@ -102,6 +102,13 @@ with Firmware("host", link=path) as firmware:
     status = fields(tool("status", *port))
     tap.check(status["state"] == "ready" and status["step"] == "0" and int(status["refused"]) > 0, "status counts", str(status))
     check(tool("get", "N1", env={"SQUEAL_PORT": "unix:" + path}), OK, "N1 = 2000 N", "SQUEAL_PORT stands in for --port")
+    tool("set", "stale=0.001", "safe=0.002", "ramp=0.01", *port)
+    check(tool("step", "1000", "--load", "1000", *port), OK, "in the safe state: step --start leaves it", "a controller that falls silent")
+    check(tool("get", "--now", "input_state", *port), OK, "input_state = safe", "is told as a signal")
+    check(tool("step", "1", "--load", "1000", *port), REFUSED, "safe-state", "and not heard any more")
+    check(tool("step", "1", "--start", *port), OK, "propensity", "until it starts anew")
+    check(tool("status", *port), OK, ["input_state     fresh", "times_safe      1"], "which status tells")
+    tool("preset", "brake", *port)
     firmware.send("step 100000000")
     firmware.flush()
     while fields(tool("status", *port))["state"] != "run":

@@ -123,6 +123,10 @@ static void check_steps(void)
     (void)master_step(&master, &sent, 10u, &demand);
     (void)hear(&zeros);
     tap_check(heard.sequence == 2u && heard.step == 15u, "steps count by themselves, beside other requests");
+    (void)tell(LINK_STEP + LINK_REPLY, 2u, 25u, NULL, 0u);
+    (void)master_step(&master, &sent, 1u, &(struct input_demand){.starts = true});
+    (void)hear(&zeros);
+    tap_check(heard.payload[4] == INPUT_LOAD_KEEP + LINK_STARTS, "an explicit start is said with the kind of load");
 }
 
 static void check_room(void)

@@ -4,6 +4,7 @@
 #include "base/decimal.h"
 #include "protocol/signals.h"
 #include "sim/detector.h"
+#include "sim/watch.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -135,6 +136,8 @@ void linked_format_signal(const struct device_row *row, double value, char out[D
         (void)decimal_format_hex32((uint32_t)value, out);
     } else if (form == SIGNAL_FORM_MODE && value >= -1.0 && value <= SIGNAL_MODE_FAULT) {
         (void)snprintf(out, DEVICE_TEXT_MAX, "%s", signals_mode_name((int)value));
+    } else if (form == SIGNAL_FORM_WATCH && value >= WATCH_OFF && value <= WATCH_SAFE) {
+        (void)snprintf(out, DEVICE_TEXT_MAX, "%s", watch_state_name((uint8_t)value));
     } else if (is_name) {
         (void)snprintf(out, DEVICE_TEXT_MAX, "%s", detector_propensity_name((uint8_t)value));
     } else {

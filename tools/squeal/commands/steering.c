@@ -3,6 +3,7 @@
 
 #include "protocol/signals.h"
 #include "sim/detector.h"
+#include "sim/watch.h"
 
 #include <stdio.h>
 
@@ -24,6 +25,10 @@ static void tell_state(const struct master_state *state)
            signals_mode_name(state->mode), detector_propensity_name(state->propensity), state->hash);
     if ((state->flags & LINK_WAS_CLAMPED) != 0) {
         printf("an input was held at a limit\n");
+    }
+    if ((state->flags & (LINK_IS_STALE | LINK_IS_SAFE)) != 0) {
+        printf("%s\n", (state->flags & LINK_IS_SAFE) != 0 ? "in the safe state: step --start leaves it"
+                                                          : "the last input is stale");
     }
 }
 
@@ -58,6 +63,7 @@ int command_step(const struct arguments *arguments)
         !linked_read_demand(arguments, &demand)) {
         return EXIT_USAGE;
     }
+    demand.starts = arguments_flag(arguments, "--start");
     int code = linked_open(arguments, &device);
     if (code == EXIT_OK) {
         code = step_all(device, count, &demand);
@@ -124,9 +130,12 @@ static void tell_status(const struct device_status *status)
         {"bad_crc", status->bad_crc},
         {"garbage_bytes", status->garbage_bytes},
         {"refused", status->refused},
+        {"times_stale", status->times_stale},
+        {"times_safe", status->times_safe},
     };
 
     printf("%-15s %s\n", "state", status->state < 3 ? states[status->state] : "?");
+    printf("%-15s %s\n", "input_state", watch_state_name(status->input_state));
     printf("%-15s %llu\n", "step", (unsigned long long)status->step);
     printf("%-15s %.9g s\n", "t", (double)status->step * (double)status->step_s);
     printf("%-15s %08x\n%-15s %08x\n", "hash", status->hash, "set_crc", status->set_crc);

@@ -150,6 +150,8 @@ struct device_status {
     uint32_t inputs, inputs_late, inputs_clamped, inputs_refused;
     uint32_t offered, sent, dropped, waiting; /* samples */
     uint32_t frames, damaged, too_long, bad_cobs, too_short, bad_crc, garbage_bytes, refused;
+    uint8_t input_state; /* enum watch_state */
+    uint32_t times_stale, times_safe;
 };
 
 enum device_result device_status(struct device *device, struct device_status *status);

@@ -101,6 +101,9 @@ enum device_result device_status(struct device *device, struct device_status *st
     for (size_t i = 0; i < sizeof counters / sizeof counters[0]; i++) {
         *counters[i] = bytes_get_u32(&reply);
     }
+    status->input_state = bytes_get_u8(&reply);
+    status->times_stale = bytes_get_u32(&reply);
+    status->times_safe = bytes_get_u32(&reply);
     device->step = status->step;
     return DEVICE_OK;
 }
