@@ -38,7 +38,7 @@ compare 80x24 'squeal at 80 x 24' screen 24 80 squeal
 compare 120x40 'at 120 x 40' screen 40 120 squeal
 compare 160x50 'at 160 x 50, in larger letters' screen 50 160 squeal
 compare 72x20 'a fault at the least size' screen 20 72 fault
-compare 72x20-squeal 'squeal there: only the counters that have room' screen 20 72 squeal
+compare 72x20-squeal 'squeal there: zeros make room for counters that are none' screen 20 72 squeal
 compare ascii 'in ASCII' screen 24 80 fault ascii
 compare low 'too low a screen says so' screen 19 72 squeal
 compare narrow 'and too narrow a one' screen 20 71 squeal

@@ -83,61 +83,82 @@ void panels_draw_inputs(struct screen *screen, const struct picture *picture, in
 
 /* Text that goes on in the next row when one is full; what has no room in the last one is left out. */
 struct flow {
-    struct screen *screen;
-    int row, col, last_row;
+    struct screen *screen; /* NULL: only to see whether there is room */
+    int end, row, col, last_row;
+    bool is_full; /* something was left out */
 };
 
 static void flow_put(struct flow *flow, const char *name, const char *value, enum tint tint)
 {
     const int width = panels_width(name) + 1 + panels_width(value);
-    const int end = flow->screen->cols - PANELS_MARGIN;
 
-    if (flow->col + width > end && flow->row < flow->last_row) {
+    if (flow->col + width > flow->end && flow->row < flow->last_row) {
         flow->row++;
         flow->col = PANELS_MARGIN;
     }
-    if (flow->col + width > end) {
+    if (flow->col + width > flow->end) {
+        flow->is_full = true;
         return;
     }
-    flow->col += screen_text(flow->screen, flow->row, flow->col, end - flow->col, TINT_DIM, name) + 1;
-    flow->col += screen_text(flow->screen, flow->row, flow->col, end - flow->col, tint, value) + 2;
+    if (flow->screen != NULL) {
+        (void)screen_text(flow->screen, flow->row, flow->col, width, TINT_DIM, name);
+        panels_print_left_of(flow->screen, flow->row, flow->col + width, tint, value);
+    }
+    flow->col += width + 2;
 }
 
-/* What should be 0 stands out where it is not. */
-static void flow_count(struct flow *flow, const char *name, uint64_t count, bool is_loss)
-{
-    char value[32];
-
-    picture_count(value, sizeof value, count);
-    flow_put(flow, name, value, is_loss && count > 0u ? TINT_WATCH : TINT_PLAIN);
-}
-
-void panels_draw_counters(struct screen *screen, const struct picture *picture, int row)
+static void put_position(struct flow *flow, const struct picture *picture)
 {
     const struct picture_counters *counters = &picture->counters;
-    struct flow flow = {screen, row, PANELS_MARGIN, row + PANELS_COUNTER_ROWS - 1};
     char text[32];
     char offered[32];
     char both[72];
 
-    flow_count(&flow, "step", picture->step, false);
+    picture_count(text, sizeof text, picture->step);
+    flow_put(flow, "step", text, TINT_PLAIN);
     picture_quantity(text, sizeof text, (double)picture->step * picture->trace.step_s, "s");
-    flow_put(&flow, "t", text, TINT_PLAIN);
+    flow_put(flow, "t", text, TINT_PLAIN);
     (void)snprintf(text, sizeof text, "%.3g", picture->sigma);
-    flow_put(&flow, "sigma", text, TINT_PLAIN);
-    flow_count(&flow, "every", picture->trace.every, false);
+    flow_put(flow, "sigma", text, TINT_PLAIN);
+    picture_count(text, sizeof text, picture->trace.every);
+    flow_put(flow, "every", text, TINT_PLAIN);
     picture_count(text, sizeof text, counters->sent);
     picture_count(offered, sizeof offered, counters->offered);
     (void)snprintf(both, sizeof both, "%s of %s", text, offered);
-    flow_put(&flow, "sent", both, TINT_PLAIN);
-    flow_count(&flow, "dropped", counters->dropped, true);
-    flow_count(&flow, "lost", picture->trace.lost, true);
-    flow_count(&flow, "overruns", counters->overruns, true);
-    flow_count(&flow, "shed", counters->shed, true);
-    flow_count(&flow, "caps", counters->caps, true);
-    flow_count(&flow, "saturated", counters->saturations, true);
-    flow_count(&flow, "refused", counters->refused, true);
-    flow_count(&flow, "CRC", counters->bad_crc, true);
+    flow_put(flow, "sent", both, TINT_PLAIN);
+}
+
+/* What should be 0 stands out where it is not. */
+static void put_losses(struct flow *flow, const struct picture *picture, bool has_zeros)
+{
+    const struct picture_counters *counters = &picture->counters;
+    const struct {
+        const char *name;
+        uint64_t count;
+    } losses[] = {{"dropped", counters->dropped}, {"lost", picture->trace.lost}, {"overruns", counters->overruns},
+                  {"shed", counters->shed},       {"caps", counters->caps},      {"saturated", counters->saturations},
+                  {"refused", counters->refused}, {"CRC", counters->bad_crc}};
+    char text[32];
+
+    for (size_t i = 0u; i < sizeof losses / sizeof losses[0]; i++) {
+        picture_count(text, sizeof text, losses[i].count);
+        if (losses[i].count > 0u || has_zeros) {
+            flow_put(flow, losses[i].name, text, losses[i].count > 0u ? TINT_WATCH : TINT_PLAIN);
+        }
+    }
+}
+
+/* Where there is no room for all of them, zeros go first. */
+void panels_draw_counters(struct screen *screen, const struct picture *picture, int row)
+{
+    struct flow flow = {screen, screen->cols - PANELS_MARGIN, row, PANELS_MARGIN, row + PANELS_COUNTER_ROWS - 1, false};
+    struct flow trial;
+
+    put_position(&flow, picture);
+    trial = flow;
+    trial.screen = NULL;
+    put_losses(&trial, picture, true);
+    put_losses(&flow, picture, !trial.is_full);
 }
 
 /* A long one takes the row above as well. */
