@@ -39,7 +39,7 @@ __all__ = ["connect", "Plant", "Stream", "State", "Status", "Hello", "Parameter"
 
 VERSION = (1, 0)          # of the link that this client speaks: major, minor
 PROFILE = "profile"       # in place of a force or a speed: give it back to the set's profile
-BAUD = 115200
+BAUD = 921600             # of the link's UART, unless the board says otherwise
 
 Value = Union[float, int, str]
 Demand = Union[float, str, None]
@@ -90,6 +90,7 @@ ERRORS = ("ok", "unknown-command", "usage", "unknown-name", "bad-number", "out-o
           "line-overload", "selftest", "stopped", "busy", "bad-length", "unknown-type", "bad-sequence", "bad-step",
           "wrong-version", "wrong-crc")
 EXPECTING = ("bad-length", "bad-sequence", "bad-step", "wrong-version", "wrong-crc")    # these tell what was expected
+BLAMING = ("STAGE", "COMMIT", "PRESET", "RESET")    # an ERROR of these blames a parameter, of all others a field
 
 STATES = ("ready", "run", "fault")
 MODES = {-1: "slip-", 0: "stick", 1: "slip+", 2: "fault"}
@@ -119,17 +120,15 @@ def _text(field: bytes) -> str:
 
 def _short(value: float) -> float:
     """The shortest decimal that is the same single-precision number: 0.1, not 0.10000000149011612."""
-    exact = struct.pack("<f", value)
-    return next((short for short in (float(f"{value:.{digits}g}") for digits in range(1, 9))
-                 if math.isfinite(value) and _single(short) == exact), value)
+    return next((short for short in (float(f"{value:.{digits}g}") for digits in range(1, 9)) if _single(short) == value), value)
 
 
-def _single(value: float) -> bytes:
-    """The four bytes of an f32; what is too large for it is an infinity, which the device will refuse."""
+def _single(value: float) -> float:
+    """The nearest f32; what is too large for one is an infinity, which the device will refuse."""
     try:
-        return struct.pack("<f", value)
+        return struct.unpack("<f", struct.pack("<f", value))[0]
     except OverflowError:
-        return struct.pack("<f", math.copysign(math.inf, value))
+        return math.copysign(math.inf, value)
 
 
 # --- What the device tells ------------------------------------------------------------------------------------------
@@ -274,7 +273,7 @@ class Status(NamedTuple):
 
 # --- Frames ---------------------------------------------------------------------------------------------------------
 
-class _Request(NamedTuple):
+class Request(NamedTuple):
     code: int
     name: str
     asks: str                   # layouts of payloads, as of struct, without the leading "<"
@@ -282,22 +281,22 @@ class _Request(NamedTuple):
     fields: str                 # names of the request's fields
 
 
-REQUESTS: Dict[str, _Request] = {row.name: row for row in (
-    _Request(0x01, "HELLO", "BB", "BBHHHBBBBH16s32s24s16s", "major minor"),
-    _Request(0x02, "PING", "Q", "Q", "number"),
-    _Request(0x03, "STATUS", "", "BQIIIff24I", ""),
-    _Request(0x04, "DICTIONARY", "BB", "BBBHBBfff24s48s149s", "table index"),
-    _Request(0x05, "READ", "BB", "BB4s", "what index"),
-    _Request(0x06, "STAGE", "B4s", "BfI", "index value"),
-    _Request(0x07, "COMMIT", "IB", "IBI", "crc may_reset"),
-    _Request(0x08, "REVERT", "", "I", ""),
-    _Request(0x09, "PRESET", "B", "II", "index"),
-    _Request(0x0a, "RUN", "", "Q", ""),
-    _Request(0x0b, "STOP", "", "Q", ""),
-    _Request(0x0c, "RESET", "", "Q", ""),
-    _Request(0x0d, "STEP", "IBB4s4s", "QI7fbBBBB", "n load-kind speed-kind load speed"),
-    _Request(0x0e, "INPUT", "QBB4s4s", "B", "at load-kind speed-kind load speed"),
-    _Request(0x0f, "STREAM", "II", "IIH", "signals every"),
+REQUESTS: Dict[str, Request] = {row.name: row for row in (
+    Request(0x01, "HELLO", "BB", "BBHHHBBBBH16s32s24s16s", "major minor"),
+    Request(0x02, "PING", "Q", "Q", "number"),
+    Request(0x03, "STATUS", "", "BQIIIff24I", ""),
+    Request(0x04, "DICTIONARY", "BB", "BBBHBBfff24s48s149s", "table index"),
+    Request(0x05, "READ", "BB", "BB4s", "what index"),
+    Request(0x06, "STAGE", "Bf", "BfI", "index value"),
+    Request(0x07, "COMMIT", "IB", "IBI", "crc may_reset"),
+    Request(0x08, "REVERT", "", "I", ""),
+    Request(0x09, "PRESET", "B", "II", "index"),
+    Request(0x0a, "RUN", "", "Q", ""),
+    Request(0x0b, "STOP", "", "Q", ""),
+    Request(0x0c, "RESET", "", "Q", ""),
+    Request(0x0d, "STEP", "IBBff", "QI7fbBBBB", "n load-kind speed-kind load speed"),
+    Request(0x0e, "INPUT", "QBBff", "B", "at load-kind speed-kind load speed"),
+    Request(0x0f, "STREAM", "II", "IIH", "signals every"),
 )}
 _REPLY, _SAMPLE, _ERROR = 0x80, 0x40, 0xff
 _REFUSAL = struct.Struct("<BBBIff")
@@ -308,7 +307,7 @@ _KEEP, _PROFILE, _FIRST, _SECOND = range(4)                     # kinds of load 
 _LONGEST = 7 + 240 + 4 + 2                                      # bytes of a stuffed frame before its 00
 
 
-class _Frame(NamedTuple):
+class Frame(NamedTuple):
     kind: int
     sequence: int
     step: int                   # low word of the plant's step counter
@@ -332,17 +331,17 @@ def _unstuff(data: bytes) -> Optional[bytes]:
     return b"".join(pieces)
 
 
-def _encode(frame: _Frame) -> bytes:
+def encode(frame: Frame) -> bytes:
     data = _HEAD.pack(frame.kind, frame.sequence, frame.step) + frame.payload
     return _stuff(data + struct.pack("<I", zlib.crc32(data))) + b"\0"
 
 
-def _decode(line: bytes) -> Optional[_Frame]:
+def decode(line: bytes) -> Optional[Frame]:
     """What was before a 00, as a frame; None if it is none."""
     data = _unstuff(line)
     if data is None or len(data) < _HEAD.size + 4 or zlib.crc32(data[:-4]) != struct.unpack("<I", data[-4:])[0]:
         return None
-    return _Frame(*_HEAD.unpack_from(data), data[_HEAD.size:-4])
+    return Frame(*_HEAD.unpack_from(data), data[_HEAD.size:-4])
 
 
 # --- Ports ----------------------------------------------------------------------------------------------------------
@@ -536,16 +535,16 @@ class _Link:
     def __init__(self, port: _Port, timeout_s: float, patience_s: float) -> None:
         self.port, self.timeout_s, self.patience_s = port, timeout_s, patience_s
         self.step = 0                           # low word of the plant's step counter, as the last reply told
-        self.samples: Deque[_Frame] = deque()
+        self.samples: Deque[Frame] = deque()
         self._partial = b""
-        self._frames: Deque[_Frame] = deque()
+        self._frames: Deque[Frame] = deque()
         self._is_skipping = False               # until the next 00: what comes is too long for a frame
         self._heard, self._good, self._printable = 0, 0, 0
 
-    def ask(self, request: _Request, sequence: int, fields: Sequence[Any], extra_s: float = 0.0) -> Tuple[Any, ...]:
+    def ask(self, request: Request, sequence: int, fields: Sequence[Any], extra_s: float = 0.0) -> Tuple[Any, ...]:
         """The reply's fields. extra_s: what the request may take by itself. Raises _Refusal, NoAnswer."""
         payload = struct.pack("<" + request.asks, *fields)
-        line = _encode(_Frame(request.code, sequence, self.step, payload))
+        line = encode(Frame(request.code, sequence, self.step, payload))
         now = time.monotonic()
         until, pause, tries = now + self.patience_s + extra_s, self.timeout_s, 0
         while now < until:
@@ -561,13 +560,13 @@ class _Link:
             now = time.monotonic()
         raise self._no_answer(request, tries)
 
-    def _unpack(self, request: _Request, reply: _Frame) -> Tuple[Any, ...]:
+    def _unpack(self, request: Request, reply: Frame) -> Tuple[Any, ...]:
         layout = struct.Struct("<" + request.tells)
         if len(reply.payload) != layout.size:
             raise Error(f"{self.port.name}: the reply to {request.name} has {len(reply.payload)} bytes, not {layout.size}")
         return layout.unpack(reply.payload)
 
-    def _reply(self, request: _Request, sequence: int, until: float) -> Optional[_Frame]:
+    def _reply(self, request: Request, sequence: int, until: float) -> Optional[Frame]:
         """The reply; late ones to earlier requests are skipped. None if it does not come until then."""
         while True:
             frame = self.listen(until)
@@ -580,7 +579,7 @@ class _Link:
             if frame.kind == _SAMPLE:
                 self.samples.append(frame)
 
-    def listen(self, until: float) -> Optional[_Frame]:
+    def listen(self, until: float) -> Optional[Frame]:
         """The next frame, None if none comes until then."""
         while not self._frames:
             data = self.port.receive(until)
@@ -595,7 +594,7 @@ class _Link:
         self._printable += sum(32 <= byte < 127 or byte in b"\r\n" for byte in data)
         *lines, self._partial = (self._partial + data).split(b"\0")
         for line in lines:
-            frame = None if self._is_skipping else _decode(line)
+            frame = None if self._is_skipping else decode(line)
             self._is_skipping = False
             if frame:
                 self._good += 1
@@ -603,7 +602,7 @@ class _Link:
         if len(self._partial) > _LONGEST:
             self._partial, self._is_skipping = b"", True
 
-    def _no_answer(self, request: _Request, tries: int) -> NoAnswer:
+    def _no_answer(self, request: Request, tries: int) -> NoAnswer:
         asked = f"{request.name} was sent {tries} times"
         if not self._heard:
             return NoAnswer(self.port.name, f"{asked} and not a byte came back", self.port.advice)
@@ -667,11 +666,9 @@ class Plant:
         self._must_greet = False                # nobody knows what became of the last STEP
         self._at = 0                            # the plant's step counter, as last told
         self._steps_per_s: Optional[float] = None
-        self._is_running = False                # freely
-        self._may_bring = False                 # samples, though it stands: those of a free run may wait on the device
+        self._is_running = False                # freely, or samples of such a run still wait on the device
         self._stream: Optional[Stream] = None
         self.close = weakref.finalize(self, stack.close)
-        self.hello: Hello = self._greet()
 
     def __enter__(self) -> "Plant":
         return self
@@ -682,7 +679,7 @@ class Plant:
     # --- One request ---
 
     def ask(self, name: str, *fields: Any, extra_s: float = 0.0) -> Tuple[Any, ...]:
-        """Any request of PROTOCOL.md but STEP, by name and fields (an f32 as its four bytes): the fields of the reply."""
+        """Any request of PROTOCOL.md but STEP, by name and fields: the fields of the reply."""
         if not self.close.alive:
             raise Error("this plant has been closed")
         request = REQUESTS[name]
@@ -692,10 +689,10 @@ class Plant:
         except _Refusal as refusal:
             raise self._refused(request, refusal) from None
 
-    def _refused(self, request: _Request, refusal: _Refusal) -> Refused:
+    def _refused(self, request: Request, refusal: _Refusal) -> Refused:
         reason = _word(ERRORS, refusal.reason)
         names, unit = request.fields.split(), ""
-        if request.name in ("STAGE", "COMMIT", "PRESET") and reason not in EXPECTING:
+        if request.name in BLAMING:
             names = list(self.parameters)
         blamed = names[refusal.index] if refusal.index < len(names) else None
         if blamed in self.parameters:
@@ -703,6 +700,11 @@ class Plant:
         low, high = _short(refusal.low), _short(refusal.high)
         return Refused(request.name, reason, blamed, refusal.expected if reason in EXPECTING else None,
                        *((low, high, unit) if low or high else ()))
+
+    @cached_property
+    def hello(self) -> Hello:
+        """Who is speaking."""
+        return self._greet()
 
     def _greet(self) -> Hello:
         """HELLO also makes the device forget the last STEP: the next one starts a new count."""
@@ -828,7 +830,7 @@ class Plant:
     def run(self) -> int:
         """Lets the plant step freely until stop(); the step where it began."""
         self._at, = self.ask("RUN")
-        self._is_running = self._may_bring = True
+        self._is_running = True
         return self._at
 
     def stop(self) -> int:
@@ -854,8 +856,7 @@ class Plant:
         """State and counters."""
         fields = self.ask("STATUS")
         status = Status(_word(STATES, fields[0]), *fields[1:])
-        self._at, self._is_running = status.step, status.state == "run"
-        self._may_bring = self._is_running or status.samples_waiting > 0
+        self._at, self._is_running = status.step, status.state == "run" or status.samples_waiting > 0
         self._steps_per_s = max(1.0, status.sigma / status.step_s) if status.step_s > 0 else 1.0
         return status
 
@@ -884,14 +885,14 @@ class Plant:
             self.ask("STREAM", 0, 0)
             stream.every = 0
 
-    def _next_sample(self, stream: Stream) -> _Frame:
+    def _next_sample(self, stream: Stream) -> Frame:
         """The stream's next; StopIteration when there is none and the plant stands still."""
         if stream is not self._stream:
             raise StopIteration
         while not self._link.samples:
-            if not self._may_bring or not stream.every:
+            if not self._is_running or not stream.every:
                 raise StopIteration
-            frame = self._link.listen(time.monotonic() + self._link.timeout_s) if self._is_running else None
+            frame = self._link.listen(time.monotonic() + self._link.timeout_s)
             if frame is None:
                 self.status()
             elif frame.kind == _SAMPLE:
@@ -910,23 +911,23 @@ def _find(table: Mapping[str, Any], name: str, kind: str) -> Any:
     return table[name]
 
 
-def _demand(force: Demand, pressure: Demand, disc: Demand, vehicle: Demand) -> Tuple[int, int, bytes, bytes]:
+def _demand(force: Demand, pressure: Demand, disc: Demand, vehicle: Demand) -> Tuple[int, int, float, float]:
     """Kind of load, kind of speed, load, speed."""
     load_kind, load = _choose("N", force, "pressure", pressure)
     speed_kind, speed = _choose("v0", disc, "vehicle", vehicle)
     return load_kind, speed_kind, load, speed
 
 
-def _choose(first_name: str, first: Demand, second_name: str, second: Demand) -> Tuple[int, bytes]:
+def _choose(first_name: str, first: Demand, second_name: str, second: Demand) -> Tuple[int, float]:
     if first is not None and second is not None:
         raise ValueError(f"{first_name} or {second_name}, not both")
     value = first if first is not None else second
     if value is None:
-        return _KEEP, _single(0.0)
+        return _KEEP, 0.0
     if isinstance(value, str):
         if value != PROFILE:
             raise ValueError(f"{first_name} and {second_name} are numbers or {PROFILE!r}")
-        return _PROFILE, _single(0.0)
+        return _PROFILE, 0.0
     return (_FIRST if first is not None else _SECOND), _single(value)
 
 
@@ -942,4 +943,10 @@ def connect(port: str, *, baud: int = BAUD, build: Optional[str] = None, timeout
     with contextlib.ExitStack() as stack:
         line = _open(port, baud, build, stack)
         stack.callback(line.close)
-        return Plant(_Link(line, timeout_s, patience_s), stack.pop_all())
+        plant = Plant(_Link(line, timeout_s, patience_s), stack.pop_all())
+    try:
+        plant.hello  # greets
+    except Error:
+        plant.close()
+        raise
+    return plant
