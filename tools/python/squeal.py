@@ -8,9 +8,9 @@
         state = plant.step(640, N=1500)                   # 640 model steps under 1500 N
         print(state.step, state.x, state.propensity)      # metre; "unknown", "quiet", "watch" or "squeal"
 
-Every value is in SI. Names, units, ranges and help of parameters and signals are the device's own: see plant.parameters.
+Every value is in SI. Names, units, ranges and help of parameters and signals are the device's own: plant.parameters.
 The plant moves only when it is told to, so that a run gives the same bits however slow the controller or the line is.
-One thread at a time may use a plant. Python 3.8 or later on a POSIX system; nothing else. The wire: PROTOCOL.md, "The link".
+One thread at a time may use a plant. Needs Python 3.8 on a POSIX system. The wire: PROTOCOL.md, "The link".
 """
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ import weakref
 import zlib
 from collections import deque, namedtuple
 from functools import cached_property
-from typing import Any, Deque, Dict, Iterator, List, Mapping, NamedTuple, Optional, Sequence, Tuple, Union
+from typing import Any, Deque, Dict, Iterator, List, Mapping, NamedTuple, Optional, Sequence, Tuple, TypeVar, Union
 
 __all__ = ["connect", "Plant", "Stream", "State", "Status", "Hello", "Parameter", "Signal", "Preset", "Committed",
            "Error", "Refused", "NoAnswer", "UnknownName", "PROFILE"]
@@ -43,6 +43,8 @@ BAUD = 921600             # of the link's UART, unless the board says otherwise
 
 Value = Union[float, int, str]
 Demand = Union[float, str, None]
+Row = TypeVar("Row")
+Words = Union[Sequence[str], Mapping[int, str]]
 
 
 # --- What can go wrong ----------------------------------------------------------------------------------------------
@@ -85,10 +87,10 @@ class NoAnswer(Error):
 
 # --- Words for numbers ----------------------------------------------------------------------------------------------
 
-ERRORS = ("ok", "unknown-command", "usage", "unknown-name", "bad-number", "out-of-range", "needs-restart", "out-of-scale",
-          "step-too-large", "not-served", "no-scale", "in-fault", "is-running", "line-too-long", "line-damaged",
-          "line-overload", "selftest", "stopped", "busy", "bad-length", "unknown-type", "bad-sequence", "bad-step",
-          "wrong-version", "wrong-crc")
+ERRORS = ("ok", "unknown-command", "usage", "unknown-name", "bad-number", "out-of-range", "needs-restart",
+          "out-of-scale", "step-too-large", "not-served", "no-scale", "in-fault", "is-running", "line-too-long",
+          "line-damaged", "line-overload", "selftest", "stopped", "busy", "bad-length", "unknown-type", "bad-sequence",
+          "bad-step", "wrong-version", "wrong-crc")
 EXPECTING = ("bad-length", "bad-sequence", "bad-step", "wrong-version", "wrong-crc")    # these tell what was expected
 BLAMING = ("STAGE", "COMMIT", "PRESET", "RESET")    # an ERROR of these blames a parameter, of all others a field
 
@@ -97,11 +99,12 @@ MODES = {-1: "slip-", 0: "stick", 1: "slip+", 2: "fault"}
 PROPENSITIES = ("unknown", "quiet", "watch", "squeal")
 CLASSES = ("unsettled", "rest", "decaying", "growing", "forced", "stickslip", "cross", "limitcycle-slip",
            "limitcycle-stickslip", "aperiodic", "diverging")
+WORDS: Dict[str, Words] = {"mode": MODES, "propensity": PROPENSITIES}       # of signals
 KINDS = ("real", "whole", "choice", "bits")
 CHANGES = ("live", "restart", "read only")
 
 
-def _word(words: Union[Sequence[str], Mapping[int, str]], number: int) -> str:
+def _word(words: Words, number: int) -> str:
     """The number's name; of one that a newer device has added, the number itself."""
     table = words if isinstance(words, Mapping) else dict(enumerate(words))
     return table.get(number, f"#{number}")
@@ -120,13 +123,14 @@ def _text(field: bytes) -> str:
 
 def _short(value: float) -> float:
     """The shortest decimal that is the same single-precision number: 0.1, not 0.10000000149011612."""
-    return next((short for short in (float(f"{value:.{digits}g}") for digits in range(1, 9)) if _single(short) == value), value)
+    decimals = (float(f"{value:.{digits}g}") for digits in range(1, 9))
+    return next((decimal for decimal in decimals if _single(decimal) == value), value)
 
 
 def _single(value: float) -> float:
     """The nearest f32; what is too large for one is an infinity, which the device will refuse."""
     try:
-        return struct.unpack("<f", struct.pack("<f", value))[0]
+        return float(struct.unpack("<f", struct.pack("<f", value))[0])
     except OverflowError:
         return math.copysign(math.inf, value)
 
@@ -163,7 +167,7 @@ class Parameter(NamedTuple):
     change: str                 # live, restart, read only: what a change asks of a plant that has moved
     help: str
     choices: Tuple[str, ...]
-    index: int
+    row: int
 
     def number(self, value: Value) -> float:
         """The value as the wire wants it. A choice is given by its name, spp=64 by that number."""
@@ -189,16 +193,16 @@ class Signal(NamedTuple):
     type: str                   # real, whole, choice, bits
     help: str
     choices: Tuple[str, ...]
-    index: int
+    row: int
 
     def value(self, field: bytes) -> Value:
         """The four bytes of the wire as a user wants them."""
         if self.type == "bits":
-            return struct.unpack("<I", field)[0]
-        number = struct.unpack("<f", field)[0]
+            return int.from_bytes(field, "little")
+        number = float(struct.unpack("<f", field)[0])
         if not math.isfinite(number) or self.type == "real":
             return number
-        words = {"mode": MODES, "propensity": PROPENSITIES}.get(self.name, self.choices)
+        words = WORDS.get(self.name, self.choices)
         return _word(words, int(number)) if words else int(number)
 
 
@@ -206,7 +210,7 @@ class Preset(NamedTuple):
     """A named set."""
     name: str
     help: str
-    index: int
+    row: int
 
 
 class Committed(NamedTuple):
@@ -341,7 +345,8 @@ def decode(line: bytes) -> Optional[Frame]:
     data = _unstuff(line)
     if data is None or len(data) < _HEAD.size + 4 or zlib.crc32(data[:-4]) != struct.unpack("<I", data[-4:])[0]:
         return None
-    return Frame(*_HEAD.unpack_from(data), data[_HEAD.size:-4])
+    kind, sequence, step = _HEAD.unpack_from(data)
+    return Frame(kind, sequence, step, data[_HEAD.size:-4])
 
 
 # --- Ports ----------------------------------------------------------------------------------------------------------
@@ -467,7 +472,8 @@ def _find_command(name: str, board: str, tree: str, link: str) -> List[str]:
     made = subprocess.run(["make", "-s", "--no-print-directory", f"BOARD={board}", f"LINK={link}", "command"], cwd=tree,
                           env=environment, stdin=subprocess.DEVNULL, capture_output=True, text=True, check=False)
     if made.returncode != 0:
-        raise NoAnswer(name, (made.stderr.strip().splitlines() or ["make command failed"])[0], "name a board of this tree")
+        said = made.stderr.strip().splitlines() or ["make command failed"]
+        raise NoAnswer(name, said[0], "name a board of this tree")
     command = shlex.split(made.stdout.split(": ", 1)[1])
     if not os.path.exists(os.path.join(tree, command[-1])):
         raise NoAnswer(name, f"{command[-1]} has not been built", f"run make BOARD={board} in {tree}")
@@ -475,10 +481,8 @@ def _find_command(name: str, board: str, tree: str, link: str) -> List[str]:
 
 
 def _reap(process: "subprocess.Popen[bytes]") -> None:
-    with contextlib.suppress(OSError):
-        process.stdin.close()
     process.kill()
-    process.wait()
+    process.communicate()
 
 
 def _spawn(name: str, board: str, build: Optional[str], stack: contextlib.ExitStack) -> _Port:
@@ -490,7 +494,8 @@ def _spawn(name: str, board: str, build: Optional[str], stack: contextlib.ExitSt
     with open(os.path.join(folder, "stderr"), "w+b") as log:
         try:
             process = subprocess.Popen(command, cwd=tree, env={**os.environ, "SQUEAL_LINK": f"unix:{link}"},
-                                       stdin=subprocess.PIPE, stdout=subprocess.DEVNULL, stderr=log, start_new_session=True)
+                                       stdin=subprocess.PIPE, stdout=subprocess.DEVNULL, stderr=log,
+                                       start_new_session=True)
         except OSError as error:
             raise NoAnswer(name, f"{command[0]}: {error.strerror}", "install it: tools/setup tells how") from None
         stack.callback(_reap, process)
@@ -515,7 +520,8 @@ def _open(name: str, baud: int, build: Optional[str], stack: contextlib.ExitStac
         return _open_serial(name, rest if kind == "pty" else name, baud)
     if name == "host" or kind == "qemu" and rest:
         return _spawn(name, rest or "host", build, stack)
-    raise NoAnswer(name, "no port has such a name", "host, qemu:BOARD, /dev/ttyUSB0, pty:PATH, unix:PATH or tcp:HOST:PORT")
+    raise NoAnswer(name, "no port has such a name",
+                   "give host, qemu:BOARD, /dev/ttyUSB0, pty:PATH, unix:PATH or tcp:HOST:PORT")
 
 
 # --- Requests and replies -------------------------------------------------------------------------------------------
@@ -563,7 +569,8 @@ class _Link:
     def _unpack(self, request: Request, reply: Frame) -> Tuple[Any, ...]:
         layout = struct.Struct("<" + request.tells)
         if len(reply.payload) != layout.size:
-            raise Error(f"{self.port.name}: the reply to {request.name} has {len(reply.payload)} bytes, not {layout.size}")
+            raise Error(f"{_printable(self.port.name)}: the reply to {request.name} has {len(reply.payload)} bytes "
+                        f"instead of {layout.size}")
         return layout.unpack(reply.payload)
 
     def _reply(self, request: Request, sequence: int, until: float) -> Optional[Frame]:
@@ -607,7 +614,8 @@ class _Link:
         if not self._heard:
             return NoAnswer(self.port.name, f"{asked} and not a byte came back", self.port.advice)
         if not self._good and self._printable > 0.9 * self._heard:
-            return NoAnswer(self.port.name, f"{asked} and text came back", "this is the console: the link is the other UART")
+            return NoAnswer(self.port.name, f"{asked} and text came back",
+                            "this is the console: the link is the other UART")
         if not self._good:
             return NoAnswer(self.port.name, f"{asked} and {self._heard} bytes that are no frames came back",
                             "is it the link's UART, and at its baud rate?")
@@ -620,16 +628,16 @@ class _Link:
 class Stream:
     """Samples as they come: iterate over it.
 
-    Each is a named tuple of `step` and the signals. In lockstep the iteration ends with the last sample of the steps made so
-    far and may be taken up again after the next step(); in free run it waits for the next one and ends once the plant
-    stands still. `lost`: samples that were due and did not come, as seen so far. `every`: steps from one to the next.
-    `smallest`: the `every` that 80 % of the line can carry in free run. `bytes`: what a sample takes on the line.
+    Each is a named tuple of `step` and the signals. In lockstep the iteration ends with the last sample of the steps
+    made so far and may be taken up again after the next step(); in free run it waits for the next one and ends once the
+    plant stands still. `lost`: samples that were due and did not come, as seen so far. `every`: steps from one to the
+    next. `smallest`: the `every` that 80 % of the line can carry in free run. `bytes`: what a sample takes on the line.
     """
 
     def __init__(self, plant: "Plant", signals: List[Signal], every: int, smallest: int, size: int) -> None:
         self.every, self.smallest, self.bytes, self.lost = every, smallest, size, 0
         self._plant, self._due = plant, 0
-        self._in_order = sorted(signals, key=lambda signal: signal.index)
+        self._in_order = sorted(signals, key=lambda signal: signal.row)
         self._sample = namedtuple("Sample", ["step"] + [signal.name for signal in signals])  # type: ignore[misc]
 
     def __iter__(self) -> Iterator[Any]:
@@ -641,7 +649,8 @@ class Stream:
             frame = self._plant._next_sample(self)
         self.lost += (frame.sequence - self._due) & 0xffff
         self._due = (frame.sequence + 1) & 0xffff
-        values = {signal.name: signal.value(frame.payload[4 * at:4 * at + 4]) for at, signal in enumerate(self._in_order)}
+        values = {signal.name: signal.value(frame.payload[4 * at:4 * at + 4])
+                  for at, signal in enumerate(self._in_order)}
         return self._sample(step=self._plant._whole_step(frame.step), **values)
 
     def end(self) -> None:
@@ -665,7 +674,7 @@ class Plant:
         self._step_sequence = 0                 # the next STEP's: its own count
         self._must_greet = False                # nobody knows what became of the last STEP
         self._at = 0                            # the plant's step counter, as last told
-        self._steps_per_s: Optional[float] = None
+        self._steps_per_s = 0.0                 # that the board makes; 0: to be asked
         self._is_running = False                # freely, or samples of such a run still wait on the device
         self._stream: Optional[Stream] = None
         self.close = weakref.finalize(self, stack.close)
@@ -691,15 +700,17 @@ class Plant:
 
     def _refused(self, request: Request, refusal: _Refusal) -> Refused:
         reason = _word(ERRORS, refusal.reason)
-        names, unit = request.fields.split(), ""
-        if request.name in BLAMING:
-            names = list(self.parameters)
-        blamed = names[refusal.index] if refusal.index < len(names) else None
-        if blamed in self.parameters:
-            unit = "of " + "|".join(choices) if (choices := self.parameters[blamed].choices) else self.parameters[blamed].unit
-        low, high = _short(refusal.low), _short(refusal.high)
+        has_range = refusal.low != 0.0 or refusal.high != 0.0
+        blamed, unit = self._blame(request, refusal.index)
         return Refused(request.name, reason, blamed, refusal.expected if reason in EXPECTING else None,
-                       *((low, high, unit) if low or high else ()))
+                       _short(refusal.low) if has_range else None, _short(refusal.high) if has_range else None, unit)
+
+    def _blame(self, request: Request, index: int) -> Tuple[Optional[str], str]:
+        """What the index of an ERROR means, and its unit."""
+        if request.name not in BLAMING:
+            return dict(enumerate(request.fields.split())).get(index), ""
+        row = dict(enumerate(self.parameters.values())).get(index)
+        return (row.name, row.unit or "of " + "|".join(row.choices)) if row else (None, "")
 
     @cached_property
     def hello(self) -> Hello:
@@ -709,9 +720,9 @@ class Plant:
     def _greet(self) -> Hello:
         """HELLO also makes the device forget the last STEP: the next one starts a new count."""
         fields = self.ask("HELLO", *VERSION)
-        flags, texts = fields[8], [_text(field) for field in fields[10:]]
         self._must_greet = False
-        return Hello(*fields[:8], bool(flags & 1), bool(flags & 2), fields[9], *texts)
+        flags = fields[8]
+        return Hello._make((*fields[:8], bool(flags & 1), bool(flags & 2), fields[9], *map(_text, fields[10:])))
 
     # --- Tables of the device ---
 
@@ -753,17 +764,17 @@ class Plant:
     def get(self, name: str) -> Value:
         """A parameter in force: a number in its unit, of a choice the name."""
         row = _find(self.parameters, name, "parameter")
-        return row.value(struct.unpack("<f", self.ask("READ", _IN_FORCE, row.index)[2])[0])
+        return row.value(struct.unpack("<f", self.ask("READ", _IN_FORCE, row.row)[2])[0])
 
     def set(self, values: Mapping[str, Value] = {}, /, *, may_reset: bool = False, **named: Value) -> Committed:
         """Changes parameters, all of them or none; each in its unit, a choice by name or number.
 
-        At step 0 this is a reset, later live parameters change between two steps. may_reset: others may take a plant that has
-        moved, and stands, back to step 0. Raises Refused with the parameter and the range that is free to it.
+        At step 0 this is a reset, later live parameters change between two steps. may_reset: others may take a plant that
+        has moved, and stands, back to step 0. Raises Refused with the parameter and the range that is free to it.
         """
         rows = [(_find(self.parameters, name, "parameter"), value) for name, value in {**values, **named}.items()]
-        numbers = [(row.index, _single(row.number(value))) for row, value in rows]
-        self._steps_per_s = None
+        numbers = [(row.row, _single(row.number(value))) for row, value in rows]
+        self._steps_per_s = 0.0
         crc = self.ask("REVERT")[0]
         try:
             for index, number in numbers:
@@ -779,8 +790,8 @@ class Plant:
     def preset(self, name: str) -> Committed:
         """Loads a named set: every parameter. Stops and resets the plant."""
         row = _find(self.presets, name, "preset")
-        self._steps_per_s, self._is_running = None, False
-        crc, generation = self.ask("PRESET", row.index)
+        self._steps_per_s, self._is_running = 0.0, False
+        crc, generation = self.ask("PRESET", row.row)
         self._at = 0
         return Committed(True, generation, crc)
 
@@ -790,14 +801,14 @@ class Plant:
              vehicle: Demand = None) -> State:
         """Makes n model steps (1 .. 1000000) and tells the state.
 
-        From the first of them on holds the force N in newton or the pressure in Pa, the disc's speed at the pad v0 or that
-        of the vehicle in m/s; what is not named stays as it was, PROFILE gives it back to the set. If no reply comes the same
-        frame is sent again, and is obeyed once however often it arrives.
+        From the first of them on holds the force N in newton or the pressure in Pa, the disc's speed at the pad v0 or
+        that of the vehicle in m/s; what is not named stays as it was, PROFILE gives it back to the set. If no reply comes
+        the same frame is sent again, and is obeyed once however often it arrives.
         """
         demand = _demand(N, pressure, v0, vehicle)
         if self._must_greet:
             self._greet()
-        if self._steps_per_s is None:
+        if self._steps_per_s == 0.0:
             self.status()
         request = REQUESTS["STEP"]
         try:
@@ -814,7 +825,8 @@ class Plant:
         step, counted, x, xd, y, yd, force, friction, speed, mode, propensity, kind, period, flags = reply
         self._at, self._is_running = step, False
         return State(step, counted, x, xd, y, yd, force, friction, speed, _word(MODES, mode),
-                     _word(PROPENSITIES, propensity), _word(CLASSES, kind), period, *(bool(flags & bit) for bit in (1, 2, 4)))
+                     _word(PROPENSITIES, propensity), _word(CLASSES, kind), period,
+                     fault=bool(flags & 1), clamped=bool(flags & 2), cut=bool(flags & 4))
 
     def _start_count(self, is_new: bool) -> None:
         if is_new:
@@ -850,7 +862,7 @@ class Plant:
     def read(self, name: str) -> Value:
         """A signal now."""
         row = _find(self.signals, name, "signal")
-        return row.value(self.ask("READ", _NOW, row.index)[2])
+        return row.value(self.ask("READ", _NOW, row.row)[2])
 
     def status(self) -> Status:
         """State and counters."""
@@ -869,14 +881,14 @@ class Plant:
         return time.monotonic() - began
 
     def stream(self, signals: Sequence[str], every: int = 1) -> Stream:
-        """Samples of these signals each `every` steps, in place of those before. step comes with each, asked for or not."""
+        """Samples of these signals each `every` steps, in place of those before; `step` comes with each of them."""
         rows = [_find(self.signals, name, "signal") for name in dict.fromkeys(signals) if name != "step"]
         if self._stream:
             self.ask("STREAM", 0, 0)
         self._stream = None
         self._link.samples.clear()
         self.status()
-        bits = sum(1 << row.index for row in rows)
+        bits = sum(1 << row.row for row in rows)
         self._stream = Stream(self, rows, *self.ask("STREAM", bits, every))
         return self._stream
 
@@ -904,7 +916,7 @@ class Plant:
         return self._at + (low - self._at + 0x80000000) % 0x100000000 - 0x80000000
 
 
-def _find(table: Mapping[str, Any], name: str, kind: str) -> Any:
+def _find(table: Mapping[str, Row], name: str, kind: str) -> Row:
     if name not in table:
         close = difflib.get_close_matches(name, table, n=3, cutoff=0.4)
         raise UnknownName(f"no {kind} is called {_printable(name)!r}" + (f": {', '.join(close)}?" if close else ""))
@@ -935,8 +947,8 @@ def connect(port: str, *, baud: int = BAUD, build: Optional[str] = None, timeout
             patience_s: float = 10.0) -> Plant:
     """The plant at this port, greeted; a context manager, which closes the port and ends what was started.
 
-    port: /dev/ttyUSB0 or pty:/dev/pts/3 (a serial line, raw, 8N1 at `baud`), unix:PATH, tcp:HOST:PORT, or a firmware to be
-    started: host, qemu:mps2-an386. build: the source tree in which make was run, else SQUEAL_BUILD, else the one that
+    port: /dev/ttyUSB0 or pty:/dev/pts/3 (a serial line, raw, 8N1 at `baud`), unix:PATH, tcp:HOST:PORT, or a firmware to
+    be started: host, qemu:mps2-an386. build: the source tree in which make was run, else SQUEAL_BUILD, else the one that
     this file lies in. timeout_s: without a reply for so long a request is sent again, then after twice that, and so on;
     patience_s: NoAnswer is raised after so long, and for a step the time that it takes by itself.
     """
