@@ -351,7 +351,7 @@ def decode(line: bytes) -> Optional[Frame]:
 
 # --- Ports ----------------------------------------------------------------------------------------------------------
 
-class _Port:
+class Port:
     """A line of bytes: a descriptor that never blocks, and what to say when nobody answers there."""
 
     def __init__(self, name: str, descriptor: int, advice: str) -> None:
@@ -395,7 +395,7 @@ class _Port:
         return data
 
 
-def _open_socket(name: str, family: int, address: Any, advice: str) -> _Port:
+def _open_socket(name: str, family: int, address: Any, advice: str) -> Port:
     line = socket.socket(family, socket.SOCK_STREAM)
     try:
         line.settimeout(5.0)
@@ -405,10 +405,10 @@ def _open_socket(name: str, family: int, address: Any, advice: str) -> _Port:
     except OSError as error:
         line.close()
         raise NoAnswer(name, error.strerror or str(error), advice) from None
-    return _Port(name, line.detach(), "is another program connected there?")
+    return Port(name, line.detach(), "is another program connected there?")
 
 
-def _open_tcp(name: str, rest: str) -> _Port:
+def _open_tcp(name: str, rest: str) -> Port:
     host, _, number = rest.rpartition(":")
     advice = "is the firmware, or the bridge to it, listening there?"
     try:
@@ -428,7 +428,7 @@ _SERIAL_ADVICE = {
 }
 
 
-def _open_serial(name: str, path: str, baud: int) -> _Port:
+def _open_serial(name: str, path: str, baud: int) -> Port:
     """Raw, 8N1, no flow control, for this process alone."""
     descriptor = -1
     try:
@@ -445,7 +445,7 @@ def _open_serial(name: str, path: str, baud: int) -> _Port:
     except AttributeError:
         os.close(descriptor)
         raise NoAnswer(name, f"no line runs at {baud} baud", "give the board's, as baud=") from None
-    return _Port(name, descriptor, f"is it the board's second UART, the link, at {baud} baud, and the board on?")
+    return Port(name, descriptor, f"is it the board's second UART, the link, at {baud} baud, and the board on?")
 
 
 def _make_raw(descriptor: int, baud: int) -> None:
@@ -485,7 +485,7 @@ def _reap(process: "subprocess.Popen[bytes]") -> None:
     process.communicate()
 
 
-def _spawn(name: str, board: str, build: Optional[str], stack: contextlib.ExitStack) -> _Port:
+def _spawn(name: str, board: str, build: Optional[str], stack: contextlib.ExitStack) -> Port:
     """Starts the board's firmware; the stack ends it. Its console stays silent and gets no line."""
     tree = _find_tree(name, build)
     folder = stack.enter_context(tempfile.TemporaryDirectory(prefix="squeal-"))
@@ -510,7 +510,7 @@ def _spawn(name: str, board: str, build: Optional[str], stack: contextlib.ExitSt
     raise NoAnswer(name, f"{cause}: {said[-1]}" if said else cause, f"start it by hand: {shlex.join(command)}")
 
 
-def _open(name: str, baud: int, build: Optional[str], stack: contextlib.ExitStack) -> _Port:
+def open_port(name: str, baud: int, build: Optional[str], stack: contextlib.ExitStack) -> Port:
     kind, _, rest = name.partition(":")
     if kind == "unix":
         return _open_socket(name, socket.AF_UNIX, rest, "is the firmware running, with its link there?")
@@ -526,19 +526,19 @@ def _open(name: str, baud: int, build: Optional[str], stack: contextlib.ExitStac
 
 # --- Requests and replies -------------------------------------------------------------------------------------------
 
-class _Refusal(Exception):
+class Refusal(Exception):
     """An ERROR, as it came."""
 
-    def __init__(self, payload: bytes, was_repeated: bool) -> None:
+    def __init__(self, payload: bytes) -> None:
         super().__init__()
         _, self.reason, self.index, self.expected, self.low, self.high = _REFUSAL.unpack(payload)
-        self.was_repeated = was_repeated
+        self.was_repeated = False               # the request
 
 
-class _Link:
+class Link:
     """Frames out, frames in: asks again when no reply comes, sets samples aside, follows the plant's step."""
 
-    def __init__(self, port: _Port, timeout_s: float, patience_s: float) -> None:
+    def __init__(self, port: Port, timeout_s: float, patience_s: float) -> None:
         self.port, self.timeout_s, self.patience_s = port, timeout_s, patience_s
         self.step = 0                           # low word of the plant's step counter, as the last reply told
         self.samples: Deque[Frame] = deque()
@@ -548,7 +548,7 @@ class _Link:
         self._heard, self._good, self._printable = 0, 0, 0
 
     def ask(self, request: Request, sequence: int, fields: Sequence[Any], extra_s: float = 0.0) -> Tuple[Any, ...]:
-        """The reply's fields. extra_s: what the request may take by itself. Raises _Refusal, NoAnswer."""
+        """The reply's fields. extra_s: what the request may take by itself. Raises Refusal, NoAnswer."""
         payload = struct.pack("<" + request.asks, *fields)
         line = encode(Frame(request.code, sequence, self.step, payload))
         now = time.monotonic()
@@ -557,57 +557,65 @@ class _Link:
             # The leading 00 rids the line of half a frame.
             self.port.send(b"\0" + line, until)
             tries += 1
-            reply = self._reply(request, sequence, min(until, now + pause))
-            if reply is not None and reply.kind == _ERROR:
-                raise _Refusal(reply.payload, tries > 1)
-            if reply is not None:
-                return self._unpack(request, reply)
+            try:
+                told = self.reply(request, sequence, min(until, now + pause))
+            except Refusal as refusal:
+                refusal.was_repeated = tries > 1
+                raise
+            if told is not None:
+                return told
             pause *= 2
             now = time.monotonic()
         raise self._no_answer(request, tries)
 
-    def _unpack(self, request: Request, reply: Frame) -> Tuple[Any, ...]:
-        layout = struct.Struct("<" + request.tells)
-        if len(reply.payload) != layout.size:
-            raise Error(f"{_printable(self.port.name)}: the reply to {request.name} has {len(reply.payload)} bytes "
-                        f"instead of {layout.size}")
-        return layout.unpack(reply.payload)
-
-    def _reply(self, request: Request, sequence: int, until: float) -> Optional[Frame]:
-        """The reply; late ones to earlier requests are skipped. None if it does not come until then."""
+    def reply(self, request: Request, sequence: int, until: float) -> Optional[Tuple[Any, ...]]:
+        """The fields of the request's reply, None if it does not come until then. Late ones to others are skipped."""
         while True:
             frame = self.listen(until)
             if frame is None:
                 return None
-            is_error = frame.kind == _ERROR and len(frame.payload) == _REFUSAL.size and frame.payload[0] == request.code
-            if frame.sequence == sequence and (is_error or frame.kind == request.code + _REPLY):
-                self.step = frame.step
-                return frame
             if frame.kind == _SAMPLE:
                 self.samples.append(frame)
+            elif frame.sequence == sequence and frame.kind == request.code + _REPLY:
+                self.step = frame.step
+                return self._unpack(request, frame.payload)
+            elif frame.sequence == sequence and _is_error_of(frame, request):
+                self.step = frame.step
+                raise Refusal(frame.payload)
+            if not self._frames and time.monotonic() >= until:
+                return None
+
+    def _unpack(self, request: Request, payload: bytes) -> Tuple[Any, ...]:
+        layout = struct.Struct("<" + request.tells)
+        if len(payload) != layout.size:
+            raise Error(f"{_printable(self.port.name)}: the reply to {request.name} has {len(payload)} bytes "
+                        f"instead of {layout.size}")
+        return layout.unpack(payload)
 
     def listen(self, until: float) -> Optional[Frame]:
         """The next frame, None if none comes until then."""
         while not self._frames:
-            data = self.port.receive(until)
-            if data:
-                self._take(data)
-            elif time.monotonic() >= until:
+            self._take(self.port.receive(until))
+            if not self._frames and time.monotonic() >= until:
                 return None
         return self._frames.popleft()
 
     def _take(self, data: bytes) -> None:
         self._heard += len(data)
-        self._printable += sum(32 <= byte < 127 or byte in b"\r\n" for byte in data)
+        if not self._good:
+            self._printable += sum(32 <= byte < 127 or byte in b"\r\n" for byte in data)
         *lines, self._partial = (self._partial + data).split(b"\0")
         for line in lines:
-            frame = None if self._is_skipping else decode(line)
+            if not self._is_skipping:
+                self._sort(line, decode(line))
             self._is_skipping = False
-            if frame:
-                self._good += 1
-                self._frames.append(frame)
         if len(self._partial) > _LONGEST:
             self._partial, self._is_skipping = b"", True
+
+    def _sort(self, line: bytes, frame: Optional[Frame]) -> None:
+        if frame:
+            self._good += 1
+            self._frames.append(frame)
 
     def _no_answer(self, request: Request, tries: int) -> NoAnswer:
         asked = f"{request.name} was sent {tries} times"
@@ -623,6 +631,10 @@ class _Link:
                         "is the board still on? connect anew")
 
 
+def _is_error_of(frame: Frame, request: Request) -> bool:
+    return frame.kind == _ERROR and len(frame.payload) == _REFUSAL.size and frame.payload[0] == request.code
+
+
 # --- The plant ------------------------------------------------------------------------------------------------------
 
 class Stream:
@@ -630,13 +642,15 @@ class Stream:
 
     Each is a named tuple of `step` and the signals. In lockstep the iteration ends with the last sample of the steps
     made so far and may be taken up again after the next step(); in free run it waits for the next one and ends once the
-    plant stands still. `lost`: samples that were due and did not come, as seen so far. `every`: steps from one to the
-    next. `smallest`: the `every` that 80 % of the line can carry in free run. `bytes`: what a sample takes on the line.
+    plant stands still. `lost`: samples that were due before the last one and did not come. `every`: steps from one to
+    the next. `smallest`: the `every` that 80 % of the line can carry in free run. `bytes`: what a sample takes on the
+    line.
     """
 
     def __init__(self, plant: "Plant", signals: List[Signal], every: int, smallest: int, size: int) -> None:
         self.every, self.smallest, self.bytes, self.lost = every, smallest, size, 0
-        self._plant, self._due = plant, 0
+        self.is_open = True
+        self._plant, self._due, self._last_step = plant, 0, plant._at
         self._in_order = sorted(signals, key=lambda signal: signal.row)
         self._sample = namedtuple("Sample", ["step"] + [signal.name for signal in signals])  # type: ignore[misc]
 
@@ -647,11 +661,18 @@ class Stream:
         frame = self._plant._next_sample(self)
         while len(frame.payload) != 4 * len(self._in_order):
             frame = self._plant._next_sample(self)
-        self.lost += (frame.sequence - self._due) & 0xffff
-        self._due = (frame.sequence + 1) & 0xffff
+        step = self._plant._whole_step(frame.step)
+        self.lost += self._count_lost(frame.sequence, step)
+        self._due, self._last_step = (frame.sequence + 1) & 0xffff, step
         values = {signal.name: signal.value(frame.payload[4 * at:4 * at + 4])
                   for at, signal in enumerate(self._in_order)}
-        return self._sample(step=self._plant._whole_step(frame.step), **values)
+        return self._sample(step=step, **values)
+
+    def _count_lost(self, sequence: int, step: int) -> int:
+        """The sequence tells the number but for multiples of 65536, the step tells these, unless there was a reset."""
+        lost = (sequence - self._due) & 0xffff
+        by_step = (step - self._last_step) // max(1, self.every) - 1
+        return lost + max(0, by_step - lost + 0x8000) // 0x10000 * 0x10000
 
     def end(self) -> None:
         """No more samples; those that have come can still be read."""
@@ -668,7 +689,7 @@ class Stream:
 class Plant:
     """A brake at the other end of a link. Made by connect()."""
 
-    def __init__(self, link: _Link, stack: contextlib.ExitStack) -> None:
+    def __init__(self, link: Link, stack: contextlib.ExitStack) -> None:
         self._link = link
         self._sequence = 0                      # of all but STEP
         self._step_sequence = 0                 # the next STEP's: its own count
@@ -687,18 +708,18 @@ class Plant:
 
     # --- One request ---
 
-    def ask(self, name: str, *fields: Any, extra_s: float = 0.0) -> Tuple[Any, ...]:
-        """Any request of PROTOCOL.md but STEP, by name and fields: the fields of the reply."""
+    def _ask(self, name: str, *fields: Any) -> Tuple[Any, ...]:
+        """Any request but STEP, by name and fields: the fields of the reply."""
         if not self.close.alive:
             raise Error("this plant has been closed")
         request = REQUESTS[name]
         self._sequence = (self._sequence + 1) & 0xffff
         try:
-            return self._link.ask(request, self._sequence, fields, extra_s)
-        except _Refusal as refusal:
+            return self._link.ask(request, self._sequence, fields)
+        except Refusal as refusal:
             raise self._refused(request, refusal) from None
 
-    def _refused(self, request: Request, refusal: _Refusal) -> Refused:
+    def _refused(self, request: Request, refusal: Refusal) -> Refused:
         reason = _word(ERRORS, refusal.reason)
         has_range = refusal.low != 0.0 or refusal.high != 0.0
         blamed, unit = self._blame(request, refusal.index)
@@ -719,7 +740,7 @@ class Plant:
 
     def _greet(self) -> Hello:
         """HELLO also makes the device forget the last STEP: the next one starts a new count."""
-        fields = self.ask("HELLO", *VERSION)
+        fields = self._ask("HELLO", *VERSION)
         self._must_greet = False
         flags = fields[8]
         return Hello._make((*fields[:8], bool(flags & 1), bool(flags & 2), fields[9], *map(_text, fields[10:])))
@@ -728,7 +749,7 @@ class Plant:
 
     def _rows(self, table: int, count: int) -> Iterator[Tuple[Any, ...]]:
         for index in range(count):
-            yield self.ask("DICTIONARY", table, index)
+            yield self._ask("DICTIONARY", table, index)
 
     @cached_property
     def parameters(self) -> Dict[str, Parameter]:
@@ -764,24 +785,24 @@ class Plant:
     def get(self, name: str) -> Value:
         """A parameter in force: a number in its unit, of a choice the name."""
         row = _find(self.parameters, name, "parameter")
-        return row.value(struct.unpack("<f", self.ask("READ", _IN_FORCE, row.row)[2])[0])
+        return row.value(struct.unpack("<f", self._ask("READ", _IN_FORCE, row.row)[2])[0])
 
     def set(self, values: Mapping[str, Value] = {}, /, *, may_reset: bool = False, **named: Value) -> Committed:
         """Changes parameters, all of them or none; each in its unit, a choice by name or number.
 
-        At step 0 this is a reset, later live parameters change between two steps. may_reset: others may take a plant that
-        has moved, and stands, back to step 0. Raises Refused with the parameter and the range that is free to it.
+        At step 0 this is a reset, later live parameters change between two steps. may_reset: others may take a plant
+        that has moved, and stands, back to step 0. Raises Refused with the parameter and the range that is free to it.
         """
         rows = [(_find(self.parameters, name, "parameter"), value) for name, value in {**values, **named}.items()]
         numbers = [(row.row, _single(row.number(value))) for row, value in rows]
         self._steps_per_s = 0.0
-        crc = self.ask("REVERT")[0]
+        crc = self._ask("REVERT")[0]
         try:
             for index, number in numbers:
-                crc = self.ask("STAGE", index, number)[2]
-            crc, was_reset, generation = self.ask("COMMIT", crc, may_reset)
+                crc = self._ask("STAGE", index, number)[2]
+            crc, was_reset, generation = self._ask("COMMIT", crc, may_reset)
         except Refused:
-            self.ask("REVERT")
+            self._ask("REVERT")
             raise
         if was_reset:
             self._at = 0
@@ -791,7 +812,7 @@ class Plant:
         """Loads a named set: every parameter. Stops and resets the plant."""
         row = _find(self.presets, name, "preset")
         self._steps_per_s, self._is_running = 0.0, False
-        crc, generation = self.ask("PRESET", row.row)
+        crc, generation = self._ask("PRESET", row.row)
         self._at = 0
         return Committed(True, generation, crc)
 
@@ -802,8 +823,8 @@ class Plant:
         """Makes n model steps (1 .. 1000000) and tells the state.
 
         From the first of them on holds the force N in newton or the pressure in Pa, the disc's speed at the pad v0 or
-        that of the vehicle in m/s; what is not named stays as it was, PROFILE gives it back to the set. If no reply comes
-        the same frame is sent again, and is obeyed once however often it arrives.
+        that of the vehicle in m/s; what is not named stays as it was, PROFILE gives it back to the set. If no reply
+        comes the same frame is sent again, and is obeyed once however often it arrives.
         """
         demand = _demand(N, pressure, v0, vehicle)
         if self._must_greet:
@@ -813,7 +834,7 @@ class Plant:
         request = REQUESTS["STEP"]
         try:
             reply = self._link.ask(request, self._step_sequence, (n, *demand), extra_s=n / self._steps_per_s)
-        except _Refusal as refusal:
+        except Refusal as refusal:
             # The number of a refused STEP is used again. If it was sent twice a second refusal may be on its way, which
             # would be taken for the reply to the next STEP: a new count keeps them apart.
             self._start_count(refusal.was_repeated)
@@ -837,23 +858,23 @@ class Plant:
               vehicle: Demand = None) -> bool:
         """Holds force and speed, as step() does, from step `at` on (0: from the next one). True: held at a limit."""
         load, speed, *values = _demand(N, pressure, v0, vehicle)
-        return bool(self.ask("INPUT", at, load, speed, *values)[0])
+        return bool(self._ask("INPUT", at, load, speed, *values)[0])
 
     def run(self) -> int:
         """Lets the plant step freely until stop(); the step where it began."""
-        self._at, = self.ask("RUN")
+        self._at, = self._ask("RUN")
         self._is_running = True
         return self._at
 
     def stop(self) -> int:
         """The plant stands still; the step where it does."""
-        self._at, = self.ask("STOP")
+        self._at, = self._ask("STOP")
         self._is_running = False
         return self._at
 
     def reset(self) -> int:
         """Back to step 0 with the same set; leaves a fault."""
-        self._at, = self.ask("RESET")
+        self._at, = self._ask("RESET")
         self._is_running = False
         return self._at
 
@@ -862,11 +883,11 @@ class Plant:
     def read(self, name: str) -> Value:
         """A signal now."""
         row = _find(self.signals, name, "signal")
-        return row.value(self.ask("READ", _NOW, row.row)[2])
+        return row.value(self._ask("READ", _NOW, row.row)[2])
 
     def status(self) -> Status:
         """State and counters."""
-        fields = self.ask("STATUS")
+        fields = self._ask("STATUS")
         status = Status(_word(STATES, fields[0]), *fields[1:])
         self._at, self._is_running = status.step, status.state == "run" or status.samples_waiting > 0
         self._steps_per_s = max(1.0, status.sigma / status.step_s) if status.step_s > 0 else 1.0
@@ -876,7 +897,7 @@ class Plant:
         """Seconds there and back."""
         began = time.monotonic()
         number = time.monotonic_ns()
-        if self.ask("PING", number)[0] != number:
+        if self._ask("PING", number)[0] != number:
             raise Error(f"{self._link.port.name}: PING brought other bytes back")
         return time.monotonic() - began
 
@@ -884,32 +905,35 @@ class Plant:
         """Samples of these signals each `every` steps, in place of those before; `step` comes with each of them."""
         rows = [_find(self.signals, name, "signal") for name in dict.fromkeys(signals) if name != "step"]
         if self._stream:
-            self.ask("STREAM", 0, 0)
+            self._ask("STREAM", 0, 0)
         self._stream = None
         self._link.samples.clear()
         self.status()
         bits = sum(1 << row.row for row in rows)
-        self._stream = Stream(self, rows, *self.ask("STREAM", bits, every))
+        self._stream = Stream(self, rows, *self._ask("STREAM", bits, every))
         return self._stream
 
     def _end_stream(self, stream: Stream) -> None:
-        if stream is self._stream:
-            self.ask("STREAM", 0, 0)
-            stream.every = 0
+        if stream is self._stream and stream.is_open:
+            self._ask("STREAM", 0, 0)
+            stream.is_open = False
 
     def _next_sample(self, stream: Stream) -> Frame:
         """The stream's next; StopIteration when there is none and the plant stands still."""
         if stream is not self._stream:
             raise StopIteration
         while not self._link.samples:
-            if not self._is_running or not stream.every:
+            if not self._is_running or not stream.is_open:
                 raise StopIteration
             frame = self._link.listen(time.monotonic() + self._link.timeout_s)
             if frame is None:
                 self.status()
             elif frame.kind == _SAMPLE:
                 self._link.samples.append(frame)
-        return self._link.samples.popleft()
+        frame = self._link.samples.popleft()
+        if self._is_running:
+            self._at = self._whole_step(frame.step)
+        return frame
 
     def _whole_step(self, low: int) -> int:
         """The step counter of which this is the low word: the one nearest to where the plant was last seen."""
@@ -947,15 +971,15 @@ def connect(port: str, *, baud: int = BAUD, build: Optional[str] = None, timeout
             patience_s: float = 10.0) -> Plant:
     """The plant at this port, greeted; a context manager, which closes the port and ends what was started.
 
-    port: /dev/ttyUSB0 or pty:/dev/pts/3 (a serial line, raw, 8N1 at `baud`), unix:PATH, tcp:HOST:PORT, or a firmware to
-    be started: host, qemu:mps2-an386. build: the source tree in which make was run, else SQUEAL_BUILD, else the one that
-    this file lies in. timeout_s: without a reply for so long a request is sent again, then after twice that, and so on;
-    patience_s: NoAnswer is raised after so long, and for a step the time that it takes by itself.
+    port: /dev/ttyUSB0 or pty:/dev/pts/3 (a serial line, raw, 8N1 at `baud`), unix:PATH, tcp:HOST:PORT, or a firmware
+    to be started: host, qemu:mps2-an386. build: the source tree in which make was run, else SQUEAL_BUILD, else the one
+    that this file lies in. timeout_s: without a reply for so long a request is sent again, then after twice that, and
+    so on; patience_s: NoAnswer is raised after so long, and for a step the time that it takes by itself.
     """
     with contextlib.ExitStack() as stack:
-        line = _open(port, baud, build, stack)
+        line = open_port(port, baud, build, stack)
         stack.callback(line.close)
-        plant = Plant(_Link(line, timeout_s, patience_s), stack.pop_all())
+        plant = Plant(Link(line, timeout_s, patience_s), stack.pop_all())
     try:
         plant.hello  # greets
     except Error:
