@@ -76,20 +76,23 @@ class RawLink(squeal.Link):
 
 
 class Raw(squeal.Plant):
-    """A plant at a socket, and the line to it. Every wait has an end; nothing is asked twice."""
+    """A plant and the line to it. Every wait has an end; nothing is asked twice."""
 
-    def __init__(self, path, limit_s=30.0):
+    def __init__(self, where, limit_s=30.0):
+        """where: the path of a socket, tcp:PORT of this machine, or a terminal in /dev/."""
+        name = where if where.startswith("/dev/") else where.replace("tcp:", "tcp:127.0.0.1:") if ":" in where else f"unix:{where}"
         with contextlib.ExitStack() as stack:
-            port = self._open(path, time.monotonic() + limit_s)
+            port = self._open(name, time.monotonic() + limit_s)
             stack.callback(port.close)
             super().__init__(RawLink(port, limit_s, limit_s), stack.pop_all())
         self.limit_s = limit_s
 
     @staticmethod
-    def _open(path, until):
+    def _open(name, until):
+        """Patient, because the other end may not listen yet."""
         while True:
             try:
-                return squeal.open_port(f"unix:{path}", squeal.BAUD, None, None)
+                return squeal.open_port(name, squeal.BAUD, None, None)
             except squeal.NoAnswer:
                 if time.monotonic() > until:
                     raise

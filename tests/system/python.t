@@ -129,6 +129,7 @@ with Firmware("host", link=link) as firmware, squeal.connect(f"unix:{link}") as 
     tap.check(began < stopped == plant.status().step and plant.status().state == "ready" and sample.step > stopped - 8 and
               count + samples.lost == (stopped - began) // 8 == plant.status().samples_offered,
               "a stream in free run ends with it", f"{began} {stopped} {count} + {samples.lost}")
+    samples.end()
     plant.run()
     refused = refusal(squeal.Refused, plant.step, 1)
     tap.check(is_refused(refused, "STEP refused: is-running") and plant.reset() == 0 and plant.step(1).step == 1, "not both", str(refused))
@@ -206,6 +207,20 @@ for kind in ("tcp", "pty"):
             error = refusal(squeal.NoAnswer, squeal.connect, bridge.port[4:])
             tap.check("busy; another program has it" in str(error), "a serial line is for one", str(error))
 
+with Firmware("host", link=link), Bridge(link, folder) as bridge, squeal.connect(bridge.port) as plant:
+    def swallow(piece):
+        """No sample of the steps 11 to 20, and none of 1001 to 80000."""
+        frame = squeal.decode(piece[:-1])
+        return b"" if frame.kind == 0x40 and (10 < frame.step <= 20 or 1000 < frame.step <= 80000) else piece
+
+    bridge.to_client = swallow
+    samples = plant.stream(["x"])
+    plant.step(90000)
+    seen = [(sample.step, samples.lost) for sample in samples]
+    tap.check(seen == [(step, 0) for step in range(1, 11)] + [(step, 10) for step in range(21, 1001)] +
+              [(step, 79010) for step in range(80001, 90001)], "samples that are lost are counted, beyond 65536 as well",
+              str(seen[:12]), str(seen[-1:]))
+
 # --- Where nobody answers -------------------------------------------------------------------------------------------
 empty = os.path.join(folder, "empty")
 os.mkdir(empty)
@@ -237,11 +252,14 @@ with Firmware("host", link=link) as firmware, squeal.connect(f"unix:{link}") as 
 
 # --- A device that is another ---------------------------------------------------------------------------------------
 def device(*payloads):
-    """Answers requests with these payloads in turn: bytes for a reply, a number for ERROR with this reason."""
+    """Answers requests with these payloads in turn: bytes for a reply, a number for ERROR with this reason. Frames are sent
+    as they are, before the payload that follows them."""
     answers = list(payloads)
 
     def speak(piece):
         asked, told = squeal.decode(piece), answers.pop(0)
+        if isinstance(told, squeal.Frame):
+            return squeal.encode(told) + speak(piece)
         if isinstance(told, bytes):
             return squeal.encode(asked._replace(kind=asked.kind + 0x80, payload=told))
         return squeal.encode(asked._replace(kind=0xff, payload=struct.pack("<BBBIff", asked.kind, told, 255, 2, 0, 0)))
@@ -263,6 +281,19 @@ with listener(folder, device(greeting, b"short")) as port, squeal.connect(port) 
     error = refusal(squeal.Error, plant.status)
     tap.check("the reply to STATUS has 5 bytes instead of 125" in str(error), "a reply of another length", str(error))
 
+status = struct.pack("<BQIIIff24I", 1, 2**33 + 5, *[0] * 29)
+row = struct.pack("<BBBHBBfff24s48s149s", 1, 0, 1, 0, 0, 2, 0, 0, 0, b"x", b"m", b"")
+samples = [squeal.Frame(0x40, number, step, b"\0\0\xc0\x3f") for number, step in enumerate((7, 2**32 - 1, 0, 1))]
+stood = struct.pack("<Q", 2**33 + 5)
+with listener(folder, device(greeting, row, status, b"\0" * 10, *samples[:2], stood, samples[3], b"\0" * 8)) as port:
+    with squeal.connect(port) as plant:
+        stream = plant.stream(["x"])
+        plant.stop()
+        seen = [sample.step for sample in stream]
+        plant.reset()
+        tap.check([*seen, *(sample.step for sample in stream)] == [2**33 + 7, 2**33 - 1, 1] and stream.lost == 1,
+                  "a step counter of more than 32 bits", str(seen), str(stream.lost))
+
 # --- What is started is ended ---------------------------------------------------------------------------------------
 CHILDREN = f"/proc/self/task/{os.getpid()}/children"
 for port in ["host"] if BOARD == "host" else ["host", f"qemu:{BOARD}"]:
@@ -274,8 +305,13 @@ for port in ["host"] if BOARD == "host" else ["host", f"qemu:{BOARD}"]:
             tap.check(len(children.read().split()) == 1, f"{port}: one process")
     with open(CHILDREN, encoding="ascii") as children:
         tap.check(children.read() == "" and "closed" in str(refusal(squeal.Error, plant.stop)), f"{port}: and ended")
-script = f"import sys; sys.path.insert(0, {FOLDER!r}); import squeal; p = squeal.connect('host'); print(open('/proc/self/task/%d/children' % __import__('os').getpid()).read())"
-left = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=False, timeout=60)
+script = """\
+import os, squeal
+plant = squeal.connect("host")
+print(open(f"/proc/self/task/{os.getpid()}/children").read())
+"""
+left = subprocess.run([sys.executable, "-c", script], env={**os.environ, "PYTHONPATH": FOLDER}, capture_output=True,
+                      text=True, check=False, timeout=60)
 tap.check(left.returncode == 0 and left.stdout.strip().isdigit() and not os.path.exists(f"/proc/{left.stdout.strip()}"),
           "so is one that nobody has closed", left.stdout + left.stderr)
 

@@ -544,7 +544,6 @@ class Link:
         self.samples: Deque[Frame] = deque()
         self._partial = b""
         self._frames: Deque[Frame] = deque()
-        self._is_skipping = False               # until the next 00: what comes is too long for a frame
         self._heard, self._good, self._printable = 0, 0, 0
 
     def ask(self, request: Request, sequence: int, fields: Sequence[Any], extra_s: float = 0.0) -> Tuple[Any, ...]:
@@ -606,11 +605,9 @@ class Link:
             self._printable += sum(32 <= byte < 127 or byte in b"\r\n" for byte in data)
         *lines, self._partial = (self._partial + data).split(b"\0")
         for line in lines:
-            if not self._is_skipping:
-                self._sort(line, decode(line))
-            self._is_skipping = False
+            self._sort(line, decode(line))
         if len(self._partial) > _LONGEST:
-            self._partial, self._is_skipping = b"", True
+            self._partial = b""                 # the rest of it will be no frame either
 
     def _sort(self, line: bytes, frame: Optional[Frame]) -> None:
         if frame:
