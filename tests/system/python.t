@@ -93,6 +93,7 @@ with Firmware("host", link=link) as firmware, squeal.connect(f"unix:{link}") as 
     tap.check(plant.step(1, N=1e9).clamped and plant.input(N=1e9) and not plant.input(at=700, N=1000), "a force held at its limit")
     tap.check(plant.step(56).N > 2e3 and abs(plant.step(1).N - 1000) < 1, "an input for a step to come")
     tap.check("not both" in str(refusal(ValueError, plant.step, 1, N=1, pressure=1)), "force or pressure")
+    tap.check("STEP: " in str(refusal(ValueError, plant.step, -1)) and plant.step(1).step == 703, "steps are whole and forward")
     refused = refusal(squeal.Refused, plant.step, 0)
     tap.check(is_refused(refused, "STEP refused: out-of-range: n, accepted 1 .. 1000000"), "no step at all", str(refused))
     refused = refusal(squeal.Refused, plant.set, ke=2e8)

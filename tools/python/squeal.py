@@ -548,7 +548,10 @@ class Link:
 
     def ask(self, request: Request, sequence: int, fields: Sequence[Any], extra_s: float = 0.0) -> Tuple[Any, ...]:
         """The reply's fields. extra_s: what the request may take by itself. Raises Refusal, NoAnswer."""
-        payload = struct.pack("<" + request.asks, *fields)
+        try:
+            payload = struct.pack("<" + request.asks, *fields)
+        except struct.error as error:
+            raise ValueError(f"{request.name}: {error}") from None
         line = encode(Frame(request.code, sequence, self.step, payload))
         now = time.monotonic()
         until, pause, tries = now + self.patience_s + extra_s, self.timeout_s, 0
@@ -690,7 +693,7 @@ class Plant:
         self._link = link
         self._sequence = 0                      # of all but STEP
         self._step_sequence = 0                 # the next STEP's: its own count
-        self._must_greet = False                # nobody knows what became of the last STEP
+        self._is_unsure = False                 # of what became of the last STEP, and of what is still to come of it
         self._at = 0                            # the plant's step counter, as last told
         self._steps_per_s = 0.0                 # that the board makes; 0: to be asked
         self._is_running = False                # freely, or samples of such a run still wait on the device
@@ -732,13 +735,8 @@ class Plant:
 
     @cached_property
     def hello(self) -> Hello:
-        """Who is speaking."""
-        return self._greet()
-
-    def _greet(self) -> Hello:
-        """HELLO also makes the device forget the last STEP: the next one starts a new count."""
+        """Who is speaking. The device forgets the last STEP: the next one starts a new count."""
         fields = self._ask("HELLO", *VERSION)
-        self._must_greet = False
         flags = fields[8]
         return Hello._make((*fields[:8], bool(flags & 1), bool(flags & 2), fields[9], *map(_text, fields[10:])))
 
@@ -823,33 +821,32 @@ class Plant:
         that of the vehicle in m/s; what is not named stays as it was, PROFILE gives it back to the set. If no reply
         comes the same frame is sent again, and is obeyed once however often it arrives.
         """
-        demand = _demand(N, pressure, v0, vehicle)
-        if self._must_greet:
-            self._greet()
         if self._steps_per_s == 0.0:
             self.status()
-        request = REQUESTS["STEP"]
-        try:
-            reply = self._link.ask(request, self._step_sequence, (n, *demand), extra_s=n / self._steps_per_s)
-        except Refusal as refusal:
-            # The number of a refused STEP is used again. If it was sent twice a second refusal may be on its way, which
-            # would be taken for the reply to the next STEP: a new count keeps them apart.
-            self._start_count(refusal.was_repeated)
-            raise self._refused(request, refusal) from None
-        except NoAnswer:
-            self._start_count(True)
-            raise
-        self._step_sequence = (self._step_sequence + 1) & 0xffff
+        reply = self._make_steps(n, _demand(N, pressure, v0, vehicle))
         step, counted, x, xd, y, yd, force, friction, speed, mode, propensity, kind, period, flags = reply
         self._at, self._is_running = step, False
         return State(step, counted, x, xd, y, yd, force, friction, speed, _word(MODES, mode),
                      _word(PROPENSITIES, propensity), _word(CLASSES, kind), period,
                      fault=bool(flags & 1), clamped=bool(flags & 2), cut=bool(flags & 4))
 
-    def _start_count(self, is_new: bool) -> None:
-        if is_new:
-            self._must_greet = True
-            self._step_sequence = (self._step_sequence + 1) & 0xffff
+    def _make_steps(self, n: int, demand: Tuple[int, int, float, float]) -> Tuple[Any, ...]:
+        request, may_be_behind = REQUESTS["STEP"], self._is_unsure
+        while True:
+            if self._is_unsure:
+                # A second answer to the last STEP may be on its way, and would be taken for this one's.
+                self._ask("PING", 0)
+            self._is_unsure = True
+            try:
+                reply = self._link.ask(request, self._step_sequence, (n, *demand), extra_s=n / self._steps_per_s)
+            except Refusal as refusal:
+                self._is_unsure = refusal.was_repeated
+                if may_be_behind and _word(ERRORS, refusal.reason) == "bad-sequence":
+                    self._step_sequence, may_be_behind = refusal.expected & 0xffff, False
+                    continue
+                raise self._refused(request, refusal) from None
+            self._is_unsure, self._step_sequence = False, (self._step_sequence + 1) & 0xffff
+            return reply
 
     def input(self, at: int = 0, *, N: Demand = None, pressure: Demand = None, v0: Demand = None,
               vehicle: Demand = None) -> bool:
