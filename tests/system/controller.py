@@ -31,7 +31,20 @@ STATUS = ("state step generation hash set_crc step_s sigma events caps saturatio
 STEP = "step hash x xd y yd load friction v0 mode propensity motion period flags".split()
 KEEP, PROFILE, FORCE, PRESSURE = range(4)
 KEEP, PROFILE, DISC, VEHICLE = range(4)
-SAMPLE = 0x40
+VERDICT = ("propensity motion period band predicted flags amplitude_um velocity_mm_s velocity_mm_s_rms level_db acceleration_g "
+           "frequency_hz level_dba_estimate growth_per_s growth_error_per_s stick slipminus predicted_growth_per_s "
+           "predicted_touch_ratio onset_touch_ratio t_v10 sigma").split()
+NO_PARAMETER = 255
+
+# What a study tells by itself: name and fields by the type of the frame.
+RESULTS = {
+    0x41: ("POINT", "point first second error propensity motion period predicted end flags amplitude_um velocity_mm_s "
+           "frequency_hz level_db growth_per_s growth_error_per_s predicted_growth_per_s periods"),
+    0x42: ("BORDER", "parameter now quiets value below below_quiet below_squeal below_searched "
+           "above above_quiet above_squeal above_searched"),
+    0x43: ("STUDY_END", "request reason results trials unknown quiet watch squeal loud undecided refused diverged caps "
+           "saturations gap_held steps share low high clamped"),
+}
 
 
 class Silence(Exception):
@@ -53,6 +66,13 @@ def wire(kind, sequence, step, payload=b""):
 
 
 unwire = squeal.decode
+
+
+def result(frame):
+    """The fields of a frame that a study has sent."""
+    name, names = RESULTS[frame.kind]
+    fields = squeal.RESULTS[frame.kind].unpack(frame.payload)
+    return dict(zip(names.split(), fields), frame=name, sequence=frame.sequence, step=frame.step)
 
 
 class RawLink(squeal.Link):
@@ -113,12 +133,10 @@ class Raw(squeal.Plant):
         return frame
 
     def frame(self):
-        """The next frame that is no sample; samples are put aside."""
-        while True:
-            frame = self.any_frame()
-            if frame.kind != SAMPLE:
-                return frame
-            self._link.samples.append(frame)
+        """The next frame that is a reply; samples and results of a study are put aside."""
+        while self._link.keep(frame := self.any_frame()):
+            pass
+        return frame
 
 
 class Controller(Raw):
@@ -146,6 +164,19 @@ class Controller(Raw):
     def samples(self):
         """(sequence, step, payload) of those that came."""
         return [frame[1:] for frame in self._link.samples]
+
+    @property
+    def results(self):
+        """Of a study, those that came."""
+        return [result(frame) for frame in self._link.results]
+
+    def study_end(self):
+        """All results of the study under way, its STUDY_END the last of them."""
+        while not self.results or self.results[-1]["frame"] != "STUDY_END":
+            self._link.keep(self.any_frame())
+        told = self.results
+        self._link.results.clear()
+        return told
 
     def answer(self, name, sequence):
         """The fields of the reply to what was sent raw."""

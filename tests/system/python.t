@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """tools/python/squeal.py: each method on the host, a few on the board; lines that lose, double and garble; ports where
 nobody answers; the example."""
+import math
 import os
 import random
 import re
@@ -93,7 +94,7 @@ with Firmware("host", link=link) as firmware, squeal.connect(f"unix:{link}") as 
     tap.check(plant.step(1, N=1e9).clamped and plant.input(N=1e9) and not plant.input(at=700, N=1000), "a force held at its limit")
     tap.check(plant.step(56).N > 2e3 and abs(plant.step(1).N - 1000) < 1, "an input for a step to come")
     tap.check("not both" in str(refusal(ValueError, plant.step, 1, N=1, pressure=1)), "force or pressure")
-    tap.check("STEP: " in str(refusal(ValueError, plant.step, -1)) and plant.step(1).step == 703, "steps are whole and forward")
+    tap.check("STEP: " in str(refusal(ValueError, plant.step, -1)) and plant.step(1).step == 702, "steps are whole and forward")
     refused = refusal(squeal.Refused, plant.step, 0)
     tap.check(is_refused(refused, "STEP refused: out-of-range: n, accepted 1 .. 1000000"), "no step at all", str(refused))
     refused = refusal(squeal.Refused, plant.set, ke=2e8)
@@ -134,6 +135,59 @@ with Firmware("host", link=link) as firmware, squeal.connect(f"unix:{link}") as 
     plant.run()
     refused = refusal(squeal.Refused, plant.step, 1)
     tap.check(is_refused(refused, "STEP refused: is-running") and plant.reset() == 0 and plant.step(1).step == 1, "not both", str(refused))
+
+
+# --- Verdict, self-test, studies ------------------------------------------------------------------------------------
+with Firmware("host", link=link) as firmware, squeal.connect(f"unix:{link}") as plant:
+    plant.preset("brake")
+    verdict = plant.verdict()
+    tap.check((verdict.propensity, verdict.class_, verdict.predicted) == ("unknown", "unsettled", "squeal") and
+              math.isnan(verdict.frequency_hz), "no verdict yet", str(verdict))
+    plant.step(38400)
+    verdict, said = plant.verdict(), firmware.ask("verdict")
+    tap.check((verdict.propensity, verdict.band, verdict.audible, verdict.bistable) == ("squeal", "squeal", True, False) and
+              f"{verdict.class_}-p{verdict.period}" == said["class"] and
+              all(abs(getattr(verdict, name) / float(said[name]) - 1) < 1e-7 for name in
+                  ("amplitude_um", "frequency_hz", "velocity_mm_s_rms", "level_db", "stick", "predicted_growth_per_s", "sigma")),
+              "the verdict is the console's", str(verdict), str(said))
+    tap.check(plant.selftest() == (7, ()), "the firmware's own tests pass")
+
+    study = plant.scan(squeal.Axis("N1", 1000, 30000, 3, log=True), squeal.Axis("arith", "f32", "q27", 2), transient=100)
+    points, state = [], None
+    for point in study:
+        points.append(point)
+        state = plant.step(1)
+    tap.check([point.values for point in points] == [(force, arith) for arith in ("f32", "q27") for force in (1000.0, 5477.225, 30000.0)] and
+              [(point.error, point.propensity, point.loud) for point in points] ==
+              [("ok", "quiet", False), ("ok", "squeal", True), ("out-of-scale", "unknown", False)] * 2 and
+              (points[0].end, points[1].class_, state.step) == ("decayed", "limitcycle-stickslip", 38406),
+              "a map, and steps between its points", *map(str, points))
+    tap.check(study.promised == 6 and study.tally[:4] == ("ok", 6, 6, 0) and (study.tally.loud, study.tally.refused) == (2, 2),
+              "its tally", str(study.tally))
+    border, = plant.margin("N1", within=2)
+    tap.check((border.name, border.value, border.now, border.quiets) == ("N1", 3000.0, "squeal", "down") and
+              1998 < border.below_quiet <= border.below <= border.below_squeal < 2001 and math.isnan(border.above) and
+              border.above_searched == 6000, "a border", str(border))
+    tally = plant.occurrence(20, seed=1, N=0.2)
+    tap.check(tally.trials == 20 and tally.share == struct.unpack("f", struct.pack("f", tally.loud / 20))[0] and
+              0 < tally.low < tally.share < tally.high < 1, "an occurrence", str(tally))
+    for refused, text in ((refusal(squeal.Refused, plant.margin, "t2"), "MARGIN refused: not-served: name"),
+                          (refusal(squeal.Refused, plant.scan, squeal.Axis("N1", 1, 2, 0)),
+                           "SCAN refused: out-of-range: points, accepted 1 .. 256")):
+        tap.check(is_refused(refused, text), text, str(refused))
+    tap.check("one axis or two" in str(refusal(ValueError, plant.scan)), "a map of nothing")
+    plant.run()
+    study = plant.scan(squeal.Axis("N1", 1000, 3000, 256), whole=True)
+    first = next(study)
+    refused = refusal(squeal.Refused, plant.margin)
+    study.stop()
+    rest = list(study)
+    tap.check(first.values == (1000.0,) and is_refused(refused, "MARGIN refused: busy") and study.tally.reason == "stopped" and
+              study.tally.results == 1 + len(rest) < 256 and plant.status().state == "run",
+              "one study at a time; its stop is not the plant's", str(study.tally), str(refused))
+    study = plant.scan(squeal.Axis("N1", 1000, 3000, 256), whole=True)
+    tap.check(plant.stop() == plant.status().step and plant.status().state == "ready" and list(study) == list(study) and
+              study.tally.reason == "stopped", "the plant's stop is the study's as well")
 
 
 # --- A line that loses, doubles, delays and garbles -----------------------------------------------------------------
@@ -200,6 +254,14 @@ with Firmware("host", link=link), Bridge(link, folder) as bridge, squeal.connect
     plant._link.patience_s = 10.0
     tap.check("STEP was sent 2 times and no reply came" in str(silence) and plant.status().step == 7 and
               plant.step(1).step == 8, "after silence the plant is where it is, and goes on", str(silence))
+
+with Firmware("host", link=link), Bridge(link, folder) as bridge, squeal.connect(bridge.port, timeout_s=0.1) as plant:
+    plant.preset("brake")
+    lost = []
+    bridge.to_client = lambda piece: piece if lost else lost.append(piece) or b""
+    study = plant.scan(squeal.Axis("N1", 1000, 3000, 5))
+    tap.check([point.values[0] for point in study] == [1000, 1500, 2000, 2500, 3000] and lost,
+              "the answer to a study's beginning is lost, but not the study", str(study.tally))
 
 for kind in ("tcp", "pty"):
     with Firmware("host", link=link), Bridge(link, folder, kind) as bridge, squeal.connect(bridge.port) as plant:

@@ -34,10 +34,11 @@ from collections import deque, namedtuple
 from functools import cached_property
 from typing import Any, Deque, Dict, Iterator, List, Mapping, NamedTuple, Optional, Sequence, Tuple, TypeVar, Union
 
-__all__ = ["connect", "Plant", "Stream", "State", "Status", "Hello", "Parameter", "Signal", "Preset", "Committed",
-           "Error", "Refused", "NoAnswer", "UnknownName", "PROFILE"]
+__all__ = ["connect", "Plant", "Stream", "Study", "Axis", "State", "Status", "Verdict", "Point", "Border", "Tally",
+           "Selftest", "Hello", "Parameter", "Signal", "Preset", "Committed", "Error", "Refused", "NoAnswer",
+           "UnknownName", "PROFILE"]
 
-VERSION = (1, 0)          # of the link that this client speaks: major, minor
+VERSION = (1, 1)          # of the link that this client speaks: major, minor
 PROFILE = "profile"       # in place of a force or a speed: give it back to the set's profile
 BAUD = 921600             # of the link's UART, unless the board says otherwise
 
@@ -63,12 +64,14 @@ class Refused(Error):
     request: what was asked, as PROTOCOL.md calls it. reason: the error's name. parameter: whose value or which field of
     the request is to blame, or None. expected: the number that would have been accepted, or None. low, high: the range
     that would have been accepted, in the parameter's unit, or None; of a choice, numbers into its choices.
+    was_repeated: the request had been sent more than once.
     """
 
     def __init__(self, request: str, reason: str, parameter: Optional[str] = None, expected: Optional[int] = None,
                  low: Optional[float] = None, high: Optional[float] = None, unit: str = "") -> None:
         self.request, self.reason, self.parameter = request, reason, parameter
         self.expected, self.low, self.high = expected, low, high
+        self.was_repeated = False
         super().__init__(f"{request} refused: {reason}" + (f": {parameter}" if parameter else "")
                          + (f", expected {expected}" if expected is not None else "")
                          + (f", accepted {low:.9g} .. {high:.9g} {unit}".rstrip() if low is not None else ""))
@@ -100,6 +103,10 @@ PROPENSITIES = ("unknown", "quiet", "watch", "squeal")
 CLASSES = ("unsettled", "rest", "decaying", "growing", "forced", "stickslip", "cross", "limitcycle-slip",
            "limitcycle-stickslip", "aperiodic", "diverging")
 WORDS: Dict[str, Words] = {"mode": MODES, "propensity": PROPENSITIES}       # of signals
+BANDS = ("none", "groan", "squeal")
+ENDS = ("none", "whole", "squealed", "decayed", "diverged")
+SIDES = ("quiet", "squeal")
+QUIETS = ("none", "down", "up", "any")
 KINDS = ("real", "whole", "choice", "bits")
 CHANGES = ("live", "restart", "read only")
 
@@ -275,6 +282,108 @@ class Status(NamedTuple):
     requests_refused: int
 
 
+class Verdict(NamedTuple):
+    """Does it squeal, how, how loud, and what the closed form predicts. What makes no sense is nan."""
+    propensity: str             # unknown, quiet, watch, squeal
+    class_: str                 # kind of motion
+    period: int
+    band: str                   # none, groan, squeal
+    predicted: str              # the closed form's propensity
+    audible: bool
+    bistable: bool              # quiet from rest, but a kick may start squeal
+    amplitude_um: float
+    velocity_mm_s: float
+    velocity_mm_s_rms: float
+    level_db: float             # re 1 nm/s
+    acceleration_g: float
+    frequency_hz: float
+    level_dba_estimate: float
+    growth_per_s: float
+    growth_error_per_s: float
+    stick: float                # share of the time
+    slipminus: float
+    predicted_growth_per_s: float
+    predicted_touch_ratio: float
+    onset_touch_ratio: float
+    t_v10: float                # s, when the pad was first ten times as fast as the disc
+    sigma: float
+
+
+class Axis(NamedTuple):
+    """Values of a parameter for a map, in its unit: in equal steps, or with log in equal ratios."""
+    name: str
+    first: Value
+    last: Value
+    points: int                 # 1 .. 256
+    log: bool = False
+
+
+class Point(NamedTuple):
+    """One trial of a map. If the model cannot hold the set, error says why and the rest is empty: nan and unknown."""
+    values: Tuple[Value, ...]   # of the parameters, axis by axis
+    error: str                  # ok if there was a trial
+    propensity: str
+    class_: str
+    period: int
+    predicted: str
+    end: str                    # whole, squealed, decayed, diverged
+    loud: bool
+    undecided: bool
+    amplitude_um: float
+    velocity_mm_s: float
+    frequency_hz: float
+    level_db: float
+    growth_per_s: float
+    growth_error_per_s: float
+    predicted_growth_per_s: float
+    periods: float
+
+
+class Border(NamedTuple):
+    """The nearest borders of squeal of one parameter, in its unit; nan where there is none."""
+    name: str
+    value: float                # of the set
+    now: str                    # the set's own side: quiet, squeal
+    quiets: str                 # the way to turn it for less squeal: none, down, up, any
+    below: float
+    below_quiet: float          # the two values between which the border lies
+    below_squeal: float
+    below_searched: float       # the farthest value tried where there is no border
+    above: float
+    above_quiet: float
+    above_squeal: float
+    above_searched: float
+
+
+class Tally(NamedTuple):
+    """What a study's trials came to."""
+    reason: str                 # why it ended: ok, stopped
+    results: int                # points, borders
+    trials: int
+    unknown: int
+    quiet: int
+    watch: int
+    squeal: int
+    loud: int
+    undecided: int
+    refused: int
+    diverged: int
+    caps: int
+    saturations: int
+    gap_held: int
+    steps: int
+    share: float                # of loud trials, of an occurrence, with its 95 % interval
+    low: float
+    high: float
+    clamped: int
+
+
+class Selftest(NamedTuple):
+    """The firmware's own checks, on this device."""
+    passed: int
+    failed: Tuple[str, ...]     # names
+
+
 # --- Frames ---------------------------------------------------------------------------------------------------------
 
 class Request(NamedTuple):
@@ -284,6 +393,8 @@ class Request(NamedTuple):
     tells: str
     fields: str                 # names of the request's fields
 
+
+_SPAN = "transient window whole"
 
 REQUESTS: Dict[str, Request] = {row.name: row for row in (
     Request(0x01, "HELLO", "BB", "BBHHHBBBBH16s32s24s16s", "major minor"),
@@ -301,11 +412,20 @@ REQUESTS: Dict[str, Request] = {row.name: row for row in (
     Request(0x0d, "STEP", "IBBff", "QI7fbBBBB", "n load-kind speed-kind load speed"),
     Request(0x0e, "INPUT", "QBBff", "B", "at load-kind speed-kind load speed"),
     Request(0x0f, "STREAM", "II", "IIH", "signals every"),
+    Request(0x12, "SCAN", "BBffHBBffHHHB", "I", "name log first last points name log first last points " + _SPAN),
+    Request(0x13, "MARGIN", "BfHHB", "I", "name within " + _SPAN),
+    Request(0x14, "VERDICT", "", "6B16f", ""),
+    Request(0x15, "SELFTEST", "", "BBI", ""),
+    Request(0x16, "OCCURRENCE", "IIB4fHHB", "I", "trials seed uniform mu_s alpha c N " + _SPAN),
 )}
-_REPLY, _SAMPLE, _ERROR = 0x80, 0x40, 0xff
+_REPLY, _ERROR = 0x80, 0xff
+_SAMPLE, _POINT, _BORDER, _STUDY_END = range(0x40, 0x44)        # come by themselves
+RESULTS = {_POINT: struct.Struct("<Iff7B8f"), _BORDER: struct.Struct("<BBB9f"),
+           _STUDY_END: struct.Struct("<BBI12IQ3fI")}
 _REFUSAL = struct.Struct("<BBBIff")
 _HEAD = struct.Struct("<BHI")
-_PARAMETERS, _SIGNALS, _PRESETS = range(3)                      # tables of DICTIONARY
+_PARAMETERS, _SIGNALS, _PRESETS, _SELFTESTS = range(4)          # tables of DICTIONARY
+_NO_PARAMETER = 255
 _IN_FORCE, _STAGED, _NOW = range(3)                             # what READ reads
 _KEEP, _PROFILE, _FIRST, _SECOND = range(4)                     # kinds of load and speed
 _LONGEST = 7 + 240 + 4 + 2                                      # bytes of a stuffed frame before its 00
@@ -542,6 +662,7 @@ class Link:
         self.port, self.timeout_s, self.patience_s = port, timeout_s, patience_s
         self.step = 0                           # low word of the plant's step counter, as the last reply told
         self.samples: Deque[Frame] = deque()
+        self.results: Deque[Frame] = deque()    # of a study
         self._partial = b""
         self._frames: Deque[Frame] = deque()
         self._heard, self._good, self._printable = 0, 0, 0
@@ -576,8 +697,8 @@ class Link:
             frame = self.listen(until)
             if frame is None:
                 return None
-            if frame.kind == _SAMPLE:
-                self.samples.append(frame)
+            if self.keep(frame):
+                pass
             elif frame.sequence == sequence and frame.kind == request.code + _REPLY:
                 self.step = frame.step
                 return self._unpack(request, frame.payload)
@@ -586,6 +707,14 @@ class Link:
                 raise Refusal(frame.payload)
             if not self._frames and time.monotonic() >= until:
                 return None
+
+    def keep(self, frame: Frame) -> bool:
+        """Sets aside what comes by itself."""
+        if frame.kind == _SAMPLE:
+            self.samples.append(frame)
+        elif frame.kind in RESULTS and len(frame.payload) == RESULTS[frame.kind].size:
+            self.results.append(frame)
+        return frame.kind < _REPLY
 
     def _unpack(self, request: Request, payload: bytes) -> Tuple[Any, ...]:
         layout = struct.Struct("<" + request.tells)
@@ -686,6 +815,51 @@ class Stream:
             self.end()
 
 
+class Study:
+    """Trials of sets on the device beside the plant, which goes on undisturbed: iterate over its results as they come.
+
+    The plant may be asked and stepped between two of them. promised: the results to come; of an occurrence the trials.
+    tally: what they came to, once the iteration has ended.
+    """
+
+    def __init__(self, plant: "Plant", name: str, promised: int, rows: Sequence[Parameter]) -> None:
+        self.promised = promised
+        self.tally: Optional[Tally] = None
+        self._plant, self._name, self._sequence, self._rows = plant, name, plant._sequence, rows
+
+    def __iter__(self) -> Iterator[Any]:
+        return self
+
+    def __next__(self) -> Any:
+        if self.tally:
+            raise StopIteration
+        frame = self._plant._next_result(self._sequence)
+        fields = RESULTS[frame.kind].unpack(frame.payload)
+        if frame.kind == _POINT:
+            return self._point(*fields)
+        if frame.kind == _BORDER:
+            return self._border(*fields)
+        self.tally = Tally(_word(ERRORS, fields[1]), *fields[2:])
+        if self.tally.reason not in ("ok", "stopped"):
+            raise Refused(self._name, self.tally.reason)
+        raise StopIteration
+
+    def _point(self, _: int, first: float, second: float, error: int, propensity: int, kind: int, period: int,
+               predicted: int, end: int, flags: int, *measured: float) -> Point:
+        values = tuple(row.value(value) for row, value in zip(self._rows, (first, second)))
+        return Point(values, _word(ERRORS, error), _word(PROPENSITIES, propensity), _word(CLASSES, kind), period,
+                     _word(PROPENSITIES, predicted), _word(ENDS, end), bool(flags & 1), bool(flags & 2), *measured)
+
+    def _border(self, row: int, now: int, quiets: int, value: float, *measured: float) -> Border:
+        names = list(self._plant.parameters)
+        return Border(names[row], _short(value), _word(SIDES, now), _word(QUIETS, quiets), *measured)
+
+    def stop(self) -> None:
+        """No more trials; what has been found can still be read. The plant goes on, unless the line loses the reply."""
+        if not self.tally:
+            self._plant._ask("STOP")
+
+
 class Plant:
     """A brake at the other end of a link. Made by connect()."""
 
@@ -698,6 +872,7 @@ class Plant:
         self._steps_per_s = 0.0                 # that the board makes; 0: to be asked
         self._is_running = False                # freely, or samples of such a run still wait on the device
         self._stream: Optional[Stream] = None
+        self._current: Optional[Study] = None
         self.close = weakref.finalize(self, stack.close)
 
     def __enter__(self) -> "Plant":
@@ -708,14 +883,14 @@ class Plant:
 
     # --- One request ---
 
-    def _ask(self, name: str, *fields: Any) -> Tuple[Any, ...]:
-        """Any request but STEP, by name and fields: the fields of the reply."""
+    def _ask(self, name: str, *fields: Any, extra_s: float = 0.0) -> Tuple[Any, ...]:
+        """Any request but STEP, by name and fields: the fields of the reply. extra_s: what it takes by itself."""
         if not self.close.alive:
             raise Error("this plant has been closed")
         request = REQUESTS[name]
         self._sequence = (self._sequence + 1) & 0xffff
         try:
-            return self._link.ask(request, self._sequence, fields)
+            return self._link.ask(request, self._sequence, fields, extra_s)
         except Refusal as refusal:
             raise self._refused(request, refusal) from None
 
@@ -723,8 +898,10 @@ class Plant:
         reason = _word(ERRORS, refusal.reason)
         has_range = refusal.low != 0.0 or refusal.high != 0.0
         blamed, unit = self._blame(request, refusal.index)
-        return Refused(request.name, reason, blamed, refusal.expected if reason in EXPECTING else None,
-                       _short(refusal.low) if has_range else None, _short(refusal.high) if has_range else None, unit)
+        refused = Refused(request.name, reason, blamed, refusal.expected if reason in EXPECTING else None,
+                          _short(refusal.low) if has_range else None, _short(refusal.high) if has_range else None, unit)
+        refused.was_repeated = refusal.was_repeated
+        return refused
 
     def _blame(self, request: Request, index: int) -> Tuple[Optional[str], str]:
         """What the index of an ERROR means, and its unit."""
@@ -861,7 +1038,9 @@ class Plant:
         return self._at
 
     def stop(self) -> int:
-        """The plant stands still; the step where it does."""
+        """The plant stands still, and a study under way ends; the step where it stands."""
+        if self._current and not self._current.tally:
+            self._ask("STOP")                   # ends the study alone
         self._at, = self._ask("STOP")
         self._is_running = False
         return self._at
@@ -907,6 +1086,92 @@ class Plant:
         self._stream = Stream(self, rows, *self._ask("STREAM", bits, every))
         return self._stream
 
+    # --- Judging ---
+
+    def verdict(self) -> Verdict:
+        """Does it squeal, how, how loud."""
+        propensity, kind, period, band, predicted, flags, *measured = self._ask("VERDICT")
+        return Verdict(_word(PROPENSITIES, propensity), _word(CLASSES, kind), period, _word(BANDS, band),
+                       _word(PROPENSITIES, predicted), bool(flags & 1), bool(flags & 2), *measured)
+
+    def selftest(self) -> Selftest:
+        """Lets the firmware check itself."""
+        passed, _, failed = self._ask("SELFTEST", extra_s=60.0)
+        rows = [row for row in range(32) if failed >> row & 1]
+        return Selftest(passed, tuple(_text(self._ask("DICTIONARY", _SELFTESTS, row)[9]) for row in rows))
+
+    def scan(self, *axes: Axis, transient: int = 360, window: int = 40, whole: bool = False) -> Study:
+        """A map over one parameter or two: a Point for each set, the first axis fastest.
+
+        transient, window: normal periods that pass, and over which is measured. whole: no trial is cut short where its
+        end is certain.
+        """
+        rows = [_find(self.parameters, axis.name, "parameter") for axis in axes]
+        fields = [(row.row, axis.log, row.number(axis.first), row.number(axis.last), axis.points)
+                  for row, axis in zip(rows, axes)]
+        if not 1 <= len(fields) <= 2:
+            raise ValueError("a map has one axis or two")
+        first, second = (*fields, (_NO_PARAMETER, False, 0.0, 0.0, 0))[:2]
+        return self._study("SCAN", rows, *first, *second, *_span(transient, window, whole))
+
+    def margin(self, name: Optional[str] = None, *, within: float = 16.0, transient: int = 1600, window: int = 40,
+               whole: bool = False) -> Study:
+        """The nearest borders of squeal of a parameter, or of each that has some: a Border for each.
+
+        Searched from value/within to value x within.
+        """
+        row = _find(self.parameters, name, "parameter").row if name else _NO_PARAMETER
+        return self._study("MARGIN", (), row, within, *_span(transient, window, whole))
+
+    def occurrence(self, trials: int, *, seed: int = 0, uniform: bool = False, mu_s: float = 0.0, alpha: float = 0.0,
+                   c: float = 0.0, N: float = 0.0, transient: int = 1600, window: int = 40,
+                   whole: bool = False) -> Tally:
+        """The share of squeal when these are scattered by so much of their values; waits for the end of the trials.
+
+        Standard deviation, or half width if uniform; if none is given all of them by 0.1.
+        """
+        scatter = (mu_s, alpha, c, N) if mu_s or alpha or c or N else (0.1,) * 4
+        study = self._study("OCCURRENCE", (), trials, seed, uniform, *scatter, *_span(transient, window, whole))
+        for _ in study:
+            pass
+        assert study.tally
+        return study.tally
+
+    def _study(self, name: str, rows: Sequence[Parameter], *fields: Any) -> Study:
+        self._link.results.clear()
+        try:
+            promised, = self._ask(name, *fields)
+        except Refused as refused:
+            # The second of two may have met the study that the first one began.
+            if refused.reason != "busy" or not refused.was_repeated or not self._hears_of(self._sequence):
+                raise
+            promised = 0
+        self._current = Study(self, name, promised, rows)
+        return self._current
+
+    def _hears_of(self, sequence: int) -> bool:
+        """Does the study of this request tell a result within the time that a reply may take?"""
+        until = time.monotonic() + self._link.patience_s
+        while not any(result.sequence == sequence for result in self._link.results):
+            frame = self._link.listen(until)
+            if frame is None:
+                return False
+            self._link.keep(frame)
+        return True
+
+    def _next_result(self, sequence: int) -> Frame:
+        """The next one of this study, however long a trial takes; asks now and then whether anybody is there."""
+        while True:
+            while self._link.results:
+                result = self._link.results.popleft()
+                if result.sequence == sequence:
+                    return result
+            frame = self._link.listen(time.monotonic() + self._link.timeout_s)
+            if frame:
+                self._link.keep(frame)
+            else:
+                self.ping()
+
     def _end_stream(self, stream: Stream) -> None:
         if stream is self._stream and stream.is_open:
             self._ask("STREAM", 0, 0)
@@ -922,8 +1187,8 @@ class Plant:
             frame = self._link.listen(time.monotonic() + self._link.timeout_s)
             if frame is None:
                 self.status()
-            elif frame.kind == _SAMPLE:
-                self._link.samples.append(frame)
+            else:
+                self._link.keep(frame)
         frame = self._link.samples.popleft()
         if self._is_running:
             self._at = self._whole_step(frame.step)
@@ -932,6 +1197,10 @@ class Plant:
     def _whole_step(self, low: int) -> int:
         """The step counter of which this is the low word: the one nearest to where the plant was last seen."""
         return self._at + (low - self._at + 0x80000000) % 0x100000000 - 0x80000000
+
+
+def _span(transient: int, window: int, whole: bool) -> Tuple[int, int, int]:
+    return transient, window, int(whole)
 
 
 def _find(table: Mapping[str, Row], name: str, kind: str) -> Row:
