@@ -27,7 +27,7 @@ PRESETS = [row[0].strip('"') for row in rows("model/presets.def", "PRESET")]
 REQUESTS = {name: request.asks for name, request in squeal.REQUESTS.items()}
 STATUS = ("state step generation hash set_crc step_s sigma events caps saturations lifted gap_held ticks overruns shed inputs late "
           "clamped inputs_refused offered sent dropped waiting accepted damaged too_long bad_cobs too_short bad_crc garbage "
-          "refused").split()
+          "refused input_state times_stale times_safe").split()
 STEP = "step hash x xd y yd load friction v0 mode propensity motion period flags".split()
 KEEP, PROFILE, FORCE, PRESSURE = range(4)
 KEEP, PROFILE, DISC, VEHICLE = range(4)

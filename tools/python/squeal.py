@@ -93,16 +93,19 @@ class NoAnswer(Error):
 ERRORS = ("ok", "unknown-command", "usage", "unknown-name", "bad-number", "out-of-range", "needs-restart",
           "out-of-scale", "step-too-large", "not-served", "no-scale", "in-fault", "is-running", "line-too-long",
           "line-damaged", "line-overload", "selftest", "stopped", "busy", "bad-length", "unknown-type", "bad-sequence",
-          "bad-step", "wrong-version", "wrong-crc")
-EXPECTING = ("bad-length", "bad-sequence", "bad-step", "wrong-version", "wrong-crc")    # these tell what was expected
-BLAMING = ("STAGE", "COMMIT", "PRESET", "RESET")    # an ERROR of these blames a parameter, of all others a field
+          "bad-step", "wrong-version", "wrong-crc", "safe-state", "wrong-layout", "bad-piece")
+# These tell what would have been right; these requests blame a parameter, others a field, and so do these reasons.
+EXPECTING = ("bad-length", "bad-sequence", "bad-step", "wrong-version", "wrong-crc", "wrong-layout", "bad-piece")
+BLAMING = ("STAGE", "COMMIT", "PRESET", "RESET", "RESTORE")
+OF_A_FIELD = ("wrong-layout", "bad-piece")
 
 STATES = ("ready", "run", "fault")
 MODES = {-1: "slip-", 0: "stick", 1: "slip+", 2: "fault"}
 PROPENSITIES = ("unknown", "quiet", "watch", "squeal")
 CLASSES = ("unsettled", "rest", "decaying", "growing", "forced", "stickslip", "cross", "limitcycle-slip",
            "limitcycle-stickslip", "aperiodic", "diverging")
-WORDS: Dict[str, Words] = {"mode": MODES, "propensity": PROPENSITIES}       # of signals
+INPUT_STATES = ("off", "fresh", "stale", "safe")
+WORDS: Dict[str, Words] = {"mode": MODES, "propensity": PROPENSITIES, "input_state": INPUT_STATES}      # of signals
 BANDS = ("none", "groan", "squeal")
 ENDS = ("none", "whole", "squealed", "decayed", "diverged")
 SIDES = ("quiet", "squeal")
@@ -245,6 +248,8 @@ class State(NamedTuple):
     fault: bool                 # the plant has left its domain and is frozen since `step`
     clamped: bool               # a demand was held at a limit
     cut: bool                   # a stop on the console ended the steps at `step`
+    stale: bool                 # the last demand is older than the parameter `stale` allows
+    safe: bool                  # than `safe` allows: the brake force goes to 0, and only a start leads back
 
 
 class Status(NamedTuple):
@@ -280,6 +285,9 @@ class Status(NamedTuple):
     frames_wrong_crc: int
     bytes_of_no_frame: int
     requests_refused: int
+    input_state: str            # off, fresh, stale, safe
+    times_stale: int
+    times_safe: int
 
 
 class Verdict(NamedTuple):
@@ -395,11 +403,12 @@ class Request(NamedTuple):
 
 
 _SPAN = "transient window whole"
+_PIECE = 232                    # bytes of a run that go over at a time
 
 REQUESTS: Dict[str, Request] = {row.name: row for row in (
     Request(0x01, "HELLO", "BB", "BBHHHBBBBH16s32s24s16s", "major minor"),
     Request(0x02, "PING", "Q", "Q", "number"),
-    Request(0x03, "STATUS", "", "BQIIIff24I", ""),
+    Request(0x03, "STATUS", "", "BQIIIff24IBII", ""),
     Request(0x04, "DICTIONARY", "BB", "BBBHBBfff24s48s149s", "table index"),
     Request(0x05, "READ", "BB", "BB4s", "what index"),
     Request(0x06, "STAGE", "Bf", "BfI", "index value"),
@@ -412,6 +421,8 @@ REQUESTS: Dict[str, Request] = {row.name: row for row in (
     Request(0x0d, "STEP", "IBBff", "QI7fbBBBB", "n load-kind speed-kind load speed"),
     Request(0x0e, "INPUT", "QBBff", "B", "at load-kind speed-kind load speed"),
     Request(0x0f, "STREAM", "II", "IIH", "signals every"),
+    Request(0x10, "SNAPSHOT", "H", f"HH{_PIECE}s", "offset"),
+    Request(0x11, "RESTORE", f"HH{_PIECE}s", "HQ", "offset size piece"),
     Request(0x12, "SCAN", "BBffHBBffHHHB", "I", "name log first last points name log first last points " + _SPAN),
     Request(0x13, "MARGIN", "BfHHB", "I", "name within " + _SPAN),
     Request(0x14, "VERDICT", "", "6B16f", ""),
@@ -428,6 +439,7 @@ _PARAMETERS, _SIGNALS, _PRESETS, _SELFTESTS = range(4)          # tables of DICT
 _NO_PARAMETER = 255
 _IN_FORCE, _STAGED, _NOW = range(3)                             # what READ reads
 _KEEP, _PROFILE, _FIRST, _SECOND = range(4)                     # kinds of load and speed
+_START = 0x80                                                   # beside a STEP's kind of load
 _LONGEST = 7 + 240 + 4 + 2                                      # bytes of a stuffed frame before its 00
 
 
@@ -897,15 +909,15 @@ class Plant:
     def _refused(self, request: Request, refusal: Refusal) -> Refused:
         reason = _word(ERRORS, refusal.reason)
         has_range = refusal.low != 0.0 or refusal.high != 0.0
-        blamed, unit = self._blame(request, refusal.index)
+        blamed, unit = self._blame(request, reason, refusal.index)
         refused = Refused(request.name, reason, blamed, refusal.expected if reason in EXPECTING else None,
                           _short(refusal.low) if has_range else None, _short(refusal.high) if has_range else None, unit)
         refused.was_repeated = refusal.was_repeated
         return refused
 
-    def _blame(self, request: Request, index: int) -> Tuple[Optional[str], str]:
+    def _blame(self, request: Request, reason: str, index: int) -> Tuple[Optional[str], str]:
         """What the index of an ERROR means, and its unit."""
-        if request.name not in BLAMING:
+        if request.name not in BLAMING or reason in OF_A_FIELD:
             return dict(enumerate(request.fields.split())).get(index), ""
         row = dict(enumerate(self.parameters.values())).get(index)
         return (row.name, row.unit or "of " + "|".join(row.choices)) if row else (None, "")
@@ -990,24 +1002,26 @@ class Plant:
 
     # --- Motion ---
 
-    def step(self, n: int, *, N: Demand = None, pressure: Demand = None, v0: Demand = None,
-             vehicle: Demand = None) -> State:
+    def step(self, n: int, *, N: Demand = None, pressure: Demand = None, v0: Demand = None, vehicle: Demand = None,
+             start: bool = False) -> State:
         """Makes n model steps (1 .. 1000000) and tells the state.
 
         From the first of them on holds the force N in newton or the pressure in Pa, the disc's speed at the pad v0 or
         that of the vehicle in m/s; what is not named stays as it was, PROFILE gives it back to the set. If no reply
-        comes the same frame is sent again, and is obeyed once however often it arrives.
+        comes the same frame is sent again, and is obeyed once however often it arrives. start: leaves the safe state.
         """
         if self._steps_per_s == 0.0:
             self.status()
-        reply = self._make_steps(n, _demand(N, pressure, v0, vehicle))
+        load, *others = _demand(N, pressure, v0, vehicle)
+        reply = self._make_steps(n, load | _START if start else load, *others)
         step, counted, x, xd, y, yd, force, friction, speed, mode, propensity, kind, period, flags = reply
         self._at, self._is_running = step, False
         return State(step, counted, x, xd, y, yd, force, friction, speed, _word(MODES, mode),
                      _word(PROPENSITIES, propensity), _word(CLASSES, kind), period,
-                     fault=bool(flags & 1), clamped=bool(flags & 2), cut=bool(flags & 4))
+                     fault=bool(flags & 1), clamped=bool(flags & 2), cut=bool(flags & 4), stale=bool(flags & 8),
+                     safe=bool(flags & 16))
 
-    def _make_steps(self, n: int, demand: Tuple[int, int, float, float]) -> Tuple[Any, ...]:
+    def _make_steps(self, n: int, *demand: Any) -> Tuple[Any, ...]:
         request, may_be_behind = REQUESTS["STEP"], self._is_unsure
         while True:
             if self._is_unsure:
@@ -1032,7 +1046,7 @@ class Plant:
         return bool(self._ask("INPUT", at, load, speed, *values)[0])
 
     def run(self) -> int:
-        """Lets the plant step freely until stop(); the step where it began."""
+        """Lets the plant step freely until stop(), and leaves the safe state; the step where it began."""
         self._at, = self._ask("RUN")
         self._is_running = True
         return self._at
@@ -1051,6 +1065,23 @@ class Plant:
         self._is_running = False
         return self._at
 
+    # --- A run to go on with ---
+
+    def snapshot(self) -> bytes:
+        """The whole run of a plant that stands: set, plant, detector, counters, what is held and what waits."""
+        run, size = b"", 1
+        while len(run) < size:
+            size, offset, piece = self._ask("SNAPSHOT", len(run))
+            run += piece
+        return run[:size]
+
+    def restore(self, run: bytes) -> int:
+        """Goes on with a run, with the same bits on any board of the same firmware; the step where it stood."""
+        self._steps_per_s, self._is_running = 0.0, False
+        for offset in range(0, len(run), _PIECE):
+            _, self._at = self._ask("RESTORE", offset, len(run), run[offset:offset + _PIECE])
+        return self._at
+
     # --- Looking ---
 
     def read(self, name: str) -> Value:
@@ -1061,7 +1092,7 @@ class Plant:
     def status(self) -> Status:
         """State and counters."""
         fields = self._ask("STATUS")
-        status = Status(_word(STATES, fields[0]), *fields[1:])
+        status = Status._make((_word(STATES, fields[0]), *fields[1:-3], _word(INPUT_STATES, fields[-3]), *fields[-2:]))
         self._at, self._is_running = status.step, status.state == "run" or status.samples_waiting > 0
         self._steps_per_s = max(1.0, status.sigma / status.step_s) if status.step_s > 0 else 1.0
         return status
