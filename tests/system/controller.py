@@ -34,7 +34,8 @@ KEEP, PROFILE, DISC, VEHICLE = range(4)
 VERDICT = ("propensity motion period band predicted flags amplitude_um velocity_mm_s velocity_mm_s_rms level_db acceleration_g "
            "frequency_hz level_dba_estimate growth_per_s growth_error_per_s stick slipminus predicted_growth_per_s "
            "predicted_touch_ratio onset_touch_ratio t_v10 sigma").split()
-NO_PARAMETER = 255
+SAMPLE, NO_PARAMETER = 0x40, 255
+PIECE, STARTS = 232, 0x80
 
 # What a study tells by itself: name and fields by the type of the frame.
 RESULTS = {
@@ -183,7 +184,10 @@ class Controller(Raw):
         reply = self._link.reply(squeal.REQUESTS[name], sequence, time.monotonic() + self.limit_s)
         if reply is None:
             raise Silence("no answer")
-        return reply
+        return reply[0] if len(reply) == 1 else reply
+
+    def _refused(self, request, refusal):
+        return Refused(refusal)
 
     def ask(self, name, *fields, sequence=None, step=None):
         if sequence is None:
