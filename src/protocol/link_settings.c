@@ -98,7 +98,7 @@ enum link_progress link_commit(struct link *link)
         return link_refuse(link, &(struct link_refusal){.error = ERROR_WRONG_CRC, .expected = link_crc(staged)});
     }
     if (may_reset > 1u) {
-        return link_refuse_field(link, 1u, 0.0f, 1.0f);
+        return link_refuse(link, &(struct link_refusal){.error = ERROR_OUT_OF_RANGE, .high = 1.0f});
     }
     if (is_in_fault(link)) {
         return link_refuse_plain(link, ERROR_IN_FAULT);
@@ -141,7 +141,8 @@ enum link_progress link_preset(struct link *link)
         return link_answer(link);
     }
     if (index >= presets_count) {
-        return link_refuse_field(link, 0u, 0.0f, (float)(presets_count - 1u));
+        return link_refuse(link,
+                           &(struct link_refusal){.error = ERROR_UNKNOWN_NAME, .high = (float)(presets_count - 1u)});
     }
     presets_load(&presets_table[index], &params);
     params.arithmetic = link->executive->arithmetic;

@@ -1,15 +1,14 @@
-"""A controller at the other end of the link, as PROTOCOL.md describes it. Standard library only; the lengths and numbers are
-those of the tables that the firmware is made of."""
+"""What the tests say to the link beyond tools/python/squeal.py, which they speak it with: raw frames, requests that nobody
+would make, no second try. Names and numbers are those of the tables that the firmware is made of."""
+import contextlib
 import os
-import re
-import select
-import socket
-import struct
+import sys
 import time
-import tty
-import zlib
+from collections import deque
 
 SOURCES = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "src")
+sys.path.insert(0, os.path.join(SOURCES, "..", "tools", "python"))
+import squeal  # noqa: E402
 
 
 def rows(path, macro):
@@ -25,15 +24,7 @@ SYMBOLS = [row[2] for row in rows("model/params.def", "PARAM")]
 SIGNALS = [row[2] for row in rows("protocol/signals.def", "SIGNAL")]
 PRESETS = [row[0].strip('"') for row in rows("model/presets.def", "PRESET")]
 
-# Payloads of requests and replies, for struct.
-REQUESTS = {"HELLO": "BB", "PING": "Q", "STATUS": "", "DICTIONARY": "BB", "READ": "BB", "STAGE": "Bf", "COMMIT": "IB",
-            "REVERT": "", "PRESET": "B", "RUN": "", "STOP": "", "RESET": "", "STEP": "IBBff", "INPUT": "QBBff", "STREAM": "II",
-            "SNAPSHOT": "H", "RESTORE": "HH232s",
-            "SCAN": "BBffHBBffHHHB", "MARGIN": "BfHHB", "VERDICT": "", "SELFTEST": "", "OCCURRENCE": "IIB4fHHB"}
-REPLIES = {"HELLO": "BBHHHBBBBH16s32s24s16s", "PING": "Q", "STATUS": "BQIIIff24IBII", "DICTIONARY": "BBBHBBfff24s48s149s",
-           "READ": "BBf", "STAGE": "BfI", "COMMIT": "IBI", "REVERT": "I", "PRESET": "II", "RUN": "Q", "STOP": "Q", "RESET": "Q",
-           "STEP": "QI7fbBBBB", "INPUT": "B", "STREAM": "IIH", "SNAPSHOT": "HH232s", "RESTORE": "HQ", "SCAN": "I", "MARGIN": "I",
-           "VERDICT": "6B16f", "SELFTEST": "BBI", "OCCURRENCE": "I"}
+REQUESTS = {name: request.asks for name, request in squeal.REQUESTS.items()}
 STATUS = ("state step generation hash set_crc step_s sigma events caps saturations lifted gap_held ticks overruns shed inputs late "
           "clamped inputs_refused offered sent dropped waiting accepted damaged too_long bad_cobs too_short bad_crc garbage "
           "refused input_state times_stale times_safe").split()
@@ -43,187 +34,170 @@ KEEP, PROFILE, DISC, VEHICLE = range(4)
 VERDICT = ("propensity motion period band predicted flags amplitude_um velocity_mm_s velocity_mm_s_rms level_db acceleration_g "
            "frequency_hz level_dba_estimate growth_per_s growth_error_per_s stick slipminus predicted_growth_per_s "
            "predicted_touch_ratio onset_touch_ratio t_v10 sigma").split()
-SAMPLE, ERROR = 0x40, 0xff
+SAMPLE, NO_PARAMETER = 0x40, 255
 PIECE, STARTS = 232, 0x80
 
 # What a study tells by itself: name and fields by the type of the frame.
 RESULTS = {
-    0x41: ("POINT", "Iff7B8f", "point first second error propensity motion period predicted end flags amplitude_um velocity_mm_s "
+    0x41: ("POINT", "point first second error propensity motion period predicted end flags amplitude_um velocity_mm_s "
            "frequency_hz level_db growth_per_s growth_error_per_s predicted_growth_per_s periods"),
-    0x42: ("BORDER", "BBB9f", "parameter now quiets value below below_quiet below_squeal below_searched "
+    0x42: ("BORDER", "parameter now quiets value below below_quiet below_squeal below_searched "
            "above above_quiet above_squeal above_searched"),
-    0x43: ("STUDY_END", "BBI12IQ3fI", "request reason results trials unknown quiet watch squeal loud undecided refused diverged caps "
+    0x43: ("STUDY_END", "request reason results trials unknown quiet watch squeal loud undecided refused diverged caps "
            "saturations gap_held steps share low high clamped"),
 }
-NO_PARAMETER = 255
 
 
 class Silence(Exception):
-    """No answer in time."""
+    """No answer in time, or none that makes sense."""
 
 
-def stuff(data):
-    out, block = b"", b""
-    for byte in data:
-        if byte:
-            block += bytes([byte])
-        if not byte or len(block) == 254:
-            out += bytes([len(block) + 1]) + block
-            block = b""
-    return out + bytes([len(block) + 1]) + block
+class Refused(Exception):
+    """ERROR, with its fields as they came."""
 
-
-def unstuff(data):
-    out = b""
-    while data:
-        code, data = data[0], data[1:]
-        out, data = out + data[:code - 1], data[code - 1:]
-        if data and code < 255:
-            out += b"\0"
-    return out
+    def __init__(self, refusal):
+        self.index, self.expected, self.low, self.high = refusal.index, refusal.expected, refusal.low, refusal.high
+        self.reason = ERRORS[refusal.reason]
+        super().__init__(f"{self.reason} index={self.index} expected={self.expected:#x} {self.low} .. {self.high}")
 
 
 def wire(kind, sequence, step, payload=b""):
     """A frame as it goes over the line."""
-    body = struct.pack("<BHI", kind, sequence, step & 0xffffffff) + payload
-    return stuff(body + struct.pack("<I", zlib.crc32(body))) + b"\0"
+    return squeal.encode(squeal.Frame(kind, sequence, step & 0xffffffff, payload))
 
 
-def unwire(data):
-    """(type, sequence, step, payload) of what lies between two delimiters, or None."""
-    body = unstuff(data)
-    if len(body) < 11 or zlib.crc32(body[:-4]) != struct.unpack("<I", body[-4:])[0]:
-        return None
-    return struct.unpack("<BHI", body[:7]) + (body[7:-4],)
+unwire = squeal.decode
 
 
-def result(found):
+def result(frame):
     """The fields of a frame that a study has sent."""
-    kind, sequence, step, payload = found
-    name, form, names = RESULTS[kind]
-    return dict(zip(names.split(), struct.unpack("<" + form, payload)), frame=name, sequence=sequence, step=step)
+    name, names = RESULTS[frame.kind]
+    fields = squeal.RESULTS[frame.kind].unpack(frame.payload)
+    return dict(zip(names.split(), fields), frame=name, sequence=frame.sequence, step=frame.step)
 
 
-class Refused(Exception):
-    """ERROR, with its fields."""
+class RawLink(squeal.Link):
+    """Keeps the bytes of the frame that was heard last, and bears nothing from the firmware that is no frame."""
 
-    def __init__(self, payload):
-        self.type, number, self.index, self.expected, self.low, self.high = struct.unpack("<BBBIff", payload)
-        self.reason = ERRORS[number]
-        super().__init__(f"{self.reason} index={self.index} expected={self.expected:#x} {self.low} .. {self.high}")
+    def __init__(self, *arguments):
+        super().__init__(*arguments)
+        self.raw, self.lines = b"", deque()
 
+    def _sort(self, line, frame):
+        if frame is None and line:
+            raise Silence(f"no frame: {line.hex()}")
+        if frame is not None:
+            self.lines.append(line + b"\0")
+        super()._sort(line, frame)
 
-class Terminal:
-    """A serial line's device, used like a socket."""
-
-    def __init__(self, path):
-        self.descriptor = os.open(path, os.O_RDWR | os.O_NOCTTY)
-        tty.setraw(self.descriptor)
-
-    def fileno(self):
-        return self.descriptor
-
-    def recv(self, size):
-        return os.read(self.descriptor, size)
-
-    def sendall(self, data):
-        while data:
-            data = data[os.write(self.descriptor, data):]
-
-    def close(self):
-        os.close(self.descriptor)
+    def listen(self, until):
+        frame = super().listen(until)
+        self.raw = self.lines.popleft() if frame is not None else b""
+        return frame
 
 
-def connect(where, limit_s):
-    """A connected socket, or what is like it; patient, because the other end may not listen yet."""
-    until = time.monotonic() + limit_s
-    while True:
-        try:
-            if where.startswith("/dev/"):
-                return Terminal(where)
-            if where.startswith("tcp:"):
-                line = socket.create_connection(("127.0.0.1", int(where[4:])), limit_s)
-                line.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
-                return line
-            line = socket.socket(socket.AF_UNIX, socket.SOCK_STREAM)
-            line.settimeout(limit_s)
-            line.connect(where)
-            return line
-        except OSError:
-            if time.monotonic() > until:
-                raise
-            time.sleep(0.02)
-
-
-class Controller:
-    """One connection. Every wait has an end."""
+class Raw(squeal.Plant):
+    """A plant and the line to it. Every wait has an end; nothing is asked twice."""
 
     def __init__(self, where, limit_s=30.0):
         """where: the path of a socket, tcp:PORT of this machine, or a terminal in /dev/."""
+        name = where if where.startswith("/dev/") else where.replace("tcp:", "tcp:127.0.0.1:") if ":" in where else f"unix:{where}"
+        with contextlib.ExitStack() as stack:
+            port = self._open(name, time.monotonic() + limit_s)
+            stack.callback(port.close)
+            super().__init__(RawLink(port, limit_s, limit_s), stack.pop_all())
         self.limit_s = limit_s
-        self.socket = connect(where, limit_s)
-        self.sequence, self.step_sequence, self.at, self.partial = 0, 0, 0, b""
-        self.pieces, self.samples, self.results, self.raw = [], [], [], b""
 
-    def close(self):
-        self.socket.close()
+    @staticmethod
+    def _open(name, until):
+        """Patient, because the other end may not listen yet."""
+        while True:
+            try:
+                return squeal.open_port(name, squeal.BAUD, None, None)
+            except squeal.NoAnswer:
+                if time.monotonic() > until:
+                    raise
+                time.sleep(0.02)
+
+    @property
+    def raw(self):
+        return self._link.raw
 
     def send(self, data):
-        self.socket.sendall(data)
+        self._link.port.send(data, time.monotonic() + self.limit_s)
 
     def any_frame(self):
         """The next frame as (type, sequence, step, payload); its bytes on the line are in raw."""
-        until = time.monotonic() + self.limit_s
-        while not self.pieces:
-            if not select.select([self.socket], [], [], max(0.0, until - time.monotonic()))[0]:
-                raise Silence("no answer")
-            chunk = self.socket.recv(65536)
-            if not chunk:
-                raise Silence("the link has closed")
-            *pieces, self.partial = (self.partial + chunk).split(b"\0")
-            self.pieces += pieces
-        self.raw = self.pieces.pop(0) + b"\0"
-        found = unwire(self.raw[:-1])
-        if found is None:
-            raise Silence(f"no frame: {self.raw.hex()}")
-        return found
+        frame = self._link.listen(time.monotonic() + self.limit_s)
+        if frame is None:
+            raise Silence("no answer")
+        return frame
 
     def frame(self):
         """The next frame that is a reply; samples and results of a study are put aside."""
-        while True:
-            found = self.any_frame()
-            if found[0] == SAMPLE:
-                self.samples.append(found[1:])
-            elif found[0] in RESULTS:
-                self.results.append(result(found))
-            else:
-                return found
+        while self._link.keep(frame := self.any_frame()):
+            pass
+        return frame
+
+
+class Controller(Raw):
+    """Requests by their fields, replies by theirs: nothing is added, turned into words or held back."""
+
+    @property
+    def at(self):
+        """Low word of the plant's step, as the last reply told."""
+        return self._link.step
+
+    @at.setter
+    def at(self, step):
+        self._link.step = step
+
+    @property
+    def step_sequence(self):
+        """Of the last STEP."""
+        return self._step_sequence - 1 & 0xffff
+
+    @step_sequence.setter
+    def step_sequence(self, sequence):
+        self._step_sequence = sequence + 1 & 0xffff
+
+    @property
+    def samples(self):
+        """(sequence, step, payload) of those that came."""
+        return [frame[1:] for frame in self._link.samples]
+
+    @property
+    def results(self):
+        """Of a study, those that came."""
+        return [result(frame) for frame in self._link.results]
 
     def study_end(self):
         """All results of the study under way, its STUDY_END the last of them."""
         while not self.results or self.results[-1]["frame"] != "STUDY_END":
-            found = self.any_frame()
-            (self.results.append(result(found)) if found[0] in RESULTS else self.samples.append(found[1:]))
-        told, self.results = self.results, []
+            self._link.keep(self.any_frame())
+        told = self.results
+        self._link.results.clear()
         return told
 
     def answer(self, name, sequence):
-        kind, echoed, at, payload = self.frame()
-        if echoed != sequence:
-            raise Silence(f"answer to {echoed} instead of {sequence}")
-        if kind == ERROR:
-            raise Refused(payload)
-        if kind != TYPES[name] | 0x80:
-            raise Silence(f"type {kind:#x} instead of that of {name}")
-        self.at = at
-        fields = struct.unpack("<" + REPLIES[name], payload)
-        return fields[0] if len(fields) == 1 else fields
+        """The fields of the reply to what was sent raw."""
+        reply = self._link.reply(squeal.REQUESTS[name], sequence, time.monotonic() + self.limit_s)
+        if reply is None:
+            raise Silence("no answer")
+        return reply[0] if len(reply) == 1 else reply
 
-    def ask(self, name, *fields, sequence=None, step=0):
+    def _refused(self, request, refusal):
+        return Refused(refusal)
+
+    def ask(self, name, *fields, sequence=None, step=None):
         if sequence is None:
-            self.sequence = sequence = (self.sequence + 1) & 0xffff
-        self.send(wire(TYPES[name], sequence, step, struct.pack("<" + REQUESTS[name], *fields)))
-        return self.answer(name, sequence)
+            self._sequence = sequence = (self._sequence + 1) & 0xffff
+        self.at = self.at if step is None else step
+        try:
+            reply = self._link.ask(squeal.REQUESTS[name], sequence, fields)
+        except squeal.Refusal as refusal:
+            raise Refused(refusal) from None
+        return reply[0] if len(reply) == 1 else reply
 
     def refusal(self, name, *fields, **head):
         """The Refused that the request gets."""
@@ -235,7 +209,7 @@ class Controller:
 
     def step(self, count=1, load_kind=KEEP, load=0.0, speed_kind=KEEP, speed=0.0):
         """Steps from where the plant stood at the last answer."""
-        self.step_sequence = (self.step_sequence + 1) & 0xffff
+        self._step_sequence = (self._step_sequence + 1) & 0xffff
         fields = self.ask("STEP", count, load_kind, speed_kind, load, speed, sequence=self.step_sequence, step=self.at)
         return dict(zip(STEP, fields))
 
@@ -243,24 +217,11 @@ class Controller:
         return dict(zip(STATUS, self.ask("STATUS")))
 
     def set(self, may_reset=1, **values):
-        """Parameters into force, all or none."""
+        """Parameters into force, all or none; choices by their numbers."""
         crc = self.ask("REVERT")
         for symbol, value in values.items():
             crc = self.ask("STAGE", SYMBOLS.index(symbol), value)[2]
         return self.ask("COMMIT", crc, may_reset)
-
-    def snapshot(self):
-        """The run as bytes."""
-        run, size = b"", 1
-        while len(run) < size:
-            size, offset, piece = self.ask("SNAPSHOT", len(run))
-            run += piece
-        return run[:size]
-
-    def restore(self, run):
-        """Goes on with a run."""
-        for offset in range(0, len(run), PIECE):
-            self.ask("RESTORE", offset, len(run), run[offset:offset + PIECE])
 
     def preset(self, name):
         return self.ask("PRESET", PRESETS.index(name))

@@ -257,7 +257,7 @@ static void check_refused_settings(void)
     say_commit(crc + 1u, 1u);
     tap_check(is_refused(ERROR_WRONG_CRC, LINK_NO_INDEX, crc), "what is not the staged set");
     say_commit(crc, 2u);
-    tap_check(is_refused(ERROR_OUT_OF_RANGE, 1u, 0u) && has_range(0.0f, 1.0f), "yes or no");
+    tap_check(is_refused(ERROR_OUT_OF_RANGE, LINK_NO_INDEX, 0u) && has_range(0.0f, 1.0f), "yes or no");
     (void)bench_say("set alpha -0.003\r");
     say_commit(crc, 1u);
     tap_check(!is_answered() && bytes_get_u8(&answer) == LINK_COMMIT && bytes_get_u8(&answer) == ERROR_WRONG_CRC,
@@ -268,7 +268,8 @@ static void check_refused_settings(void)
     (void)revert();
     say(LINK_PRESET, 4u, 0u);
     bytes_put_u8(&fields, (uint8_t)presets_count);
-    tap_check(is_refused(ERROR_OUT_OF_RANGE, 0u, 0u) && has_range(0.0f, (float)(presets_count - 1u)), "no such preset");
+    tap_check(is_refused(ERROR_UNKNOWN_NAME, LINK_NO_INDEX, 0u) && has_range(0.0f, (float)(presets_count - 1u)),
+              "no such preset");
     tap_check(load_preset("brake", 5u) && bench.executive.sim.step == 0u && bytes_get_u32(&answer) == revert(),
               "a preset is a set and a reset");
 }
