@@ -33,6 +33,8 @@ class Terminal:
 
     def __exit__(self, *unused):
         if self.code is None:
+            os.kill(self.pid, signal.SIGTERM)  # it ends what it has started
+        if self.code is None and self.end() is None:
             os.kill(self.pid, signal.SIGKILL)
             os.waitpid(self.pid, 0)
         os.close(self.fd)
