@@ -34,12 +34,15 @@ SOURCES_BENCH := $(filter src/base/% src/model/%,$(SOURCES)) src/protocol/frame.
                  $(filter-out %/echo.c,$(wildcard tests/bench/link/*.c))
 SOURCES_PICTURES := $(wildcard tests/monitor/*.c) tools/squeal/plot/spectrum.c $(addprefix tools/squeal/monitor/,canvas.c keys.c \
                     letters.c lines.c panels.c panels_overlay.c panels_plots.c panels_words.c picture.c screen.c trace.c)
+# The controller of tests/hil: all but its main is tested with the rest.
+SOURCES_LAW   := $(filter-out %/main.c,$(wildcard tests/hil/controller/*.c))
 UNIT_TESTS    := $(filter-out tests/unit/platform_host.c,$(wildcard tests/unit/*.c))
 
 OUT_BOARD  := build/$(BOARD)
 IMAGE      := $(OUT_BOARD)/squeal$(BOARD_SUFFIX)
 UNIT_IMAGE := $(OUT_BOARD)/unit$(BOARD_SUFFIX)
 PROBE      := $(OUT_BOARD)/probe$(BOARD_SUFFIX)
+CONTROLLER := $(OUT_BOARD)/controller$(BOARD_SUFFIX)
 UNIT_HOST  := build/unit/host
 TOOL       := build/tools/squeal
 BOARDS_LIST := build/tools/boards
@@ -52,17 +55,18 @@ ECHO       := $(if $(BOARD_RUN),$(OUT_BOARD)/echo$(BOARD_SUFFIX))
 PICTURES   := build/tests/monitor
 
 OBJECTS_IMAGE := $(SOURCES_IMAGE:%.c=$(OUT_BOARD)/%.o)
-OBJECTS_UNIT  := $(patsubst %.c,$(OUT_BOARD)/%.o,$(SOURCES) $(SOURCES_BOARD) $(UNIT_TESTS) tests/target/platform.c)
+OBJECTS_UNIT  := $(patsubst %.c,$(OUT_BOARD)/%.o,$(SOURCES) $(SOURCES_BOARD) $(SOURCES_LAW) $(UNIT_TESTS) tests/target/platform.c)
 OBJECTS_PROBE := $(patsubst %.c,$(OUT_BOARD)/%.o,$(SOURCES) $(SOURCES_BOARD) tests/target/probe.c)
-OBJECTS_HOST  := $(patsubst %.c,build/unit/%.o,$(SOURCES) $(UNIT_TESTS) tests/unit/platform_host.c)
+OBJECTS_CONTROLLER := $(patsubst %.c,$(OUT_BOARD)/%.o,$(SOURCES) $(SOURCES_BOARD) $(SOURCES_LAW) tests/hil/controller/main.c src/app/fault.c)
+OBJECTS_HOST  := $(patsubst %.c,build/unit/%.o,$(SOURCES) $(SOURCES_LAW) $(UNIT_TESTS) tests/unit/platform_host.c)
 OBJECTS_TOOL  := $(SOURCES_TOOL:%.c=build/tools/%.o)
 OBJECTS_LINE  := $(patsubst %.c,build/tools/%.o,$(filter src/base/%,$(SOURCES)) src/protocol/frame.c $(wildcard tests/frames/*.c))
 OBJECTS_PICTURES := $(SOURCES_PICTURES:%.c=build/unit/%.o)
 OBJECTS_MERIT := $(SOURCES_MERIT:%.c=build/tools/%.o)
 OBJECTS_BENCH := $(SOURCES_BENCH:%.c=build/tools/%.o)
 OBJECTS_ECHO  := $(patsubst %.c,$(OUT_BOARD)/%.o,$(filter src/base/%,$(SOURCES)) $(SOURCES_BOARD) tests/bench/link/echo.c)
-OBJECTS       := $(sort $(OBJECTS_IMAGE) $(OBJECTS_UNIT) $(OBJECTS_PROBE) $(OBJECTS_HOST) $(OBJECTS_TOOL) $(OBJECTS_LINE) $(OBJECTS_MERIT) $(OBJECTS_PICTURES) \
-                        $(OBJECTS_BENCH) $(if $(ECHO),$(OBJECTS_ECHO)))
+OBJECTS       := $(sort $(OBJECTS_IMAGE) $(OBJECTS_UNIT) $(OBJECTS_PROBE) $(OBJECTS_CONTROLLER) $(OBJECTS_HOST) $(OBJECTS_TOOL) \
+                        $(OBJECTS_LINE) $(OBJECTS_MERIT) $(OBJECTS_PICTURES) $(OBJECTS_BENCH) $(if $(ECHO),$(OBJECTS_ECHO)))
 
 # The commit's name is kept in a file that changes only when the name does.
 BUILD_ID := $(or $(shell GIT_OPTIONAL_LOCKS=0 git describe --always --dirty 2>/dev/null),unknown)
@@ -74,18 +78,19 @@ endif
 .PHONY: all run tool monitor console test golden oracle detector noise frames bench-link bench-link-on debug check size clean help setup other-images host-image command
 .DELETE_ON_ERROR:
 
-all: $(IMAGE) ## build the firmware for BOARD (default mps2-an386)
+all: $(IMAGE) $(CONTROLLER) ## build the firmware and the controller of tests/hil for BOARD (default mps2-an386)
 
 $(OUT_BOARD)/%.o: %.c
 	$(call say,CC,$@)
 	$(Q)mkdir -p $(@D)
 	$(Q)$(BOARD_CC) $(CFLAGS_BOARD) $(CFLAGS_EXTRA) -c $< -o $@
-$(OUT_BOARD)/tests/%.o: CFLAGS_EXTRA := -Itests/unit
+$(OUT_BOARD)/tests/%.o: CFLAGS_EXTRA := -Itests/unit -Itests
 
 build/unit/%.o: %.c
 	$(call say,CC,$@)
 	$(Q)mkdir -p $(@D)
 	$(Q)$(CC) $(CFLAGS_HOSTED) $(CFLAGS_EXTRA) $(SANITIZE) -c $< -o $@
+build/unit/tests/%.o: CFLAGS_EXTRA := -Itests
 build/unit/tools/%.o: CFLAGS_EXTRA := -Itools -D_XOPEN_SOURCE=700
 build/unit/tests/monitor/%.o: CFLAGS_EXTRA := -I. -Itools -D_XOPEN_SOURCE=700
 
@@ -107,8 +112,9 @@ $(OBJECTS): $(MAKEFILES_READ) | setup
 $(IMAGE): $(OBJECTS_IMAGE)
 $(UNIT_IMAGE): $(OBJECTS_UNIT)
 $(PROBE): $(OBJECTS_PROBE)
+$(CONTROLLER): $(OBJECTS_CONTROLLER)
 $(ECHO): $(OBJECTS_ECHO)
-$(IMAGE) $(UNIT_IMAGE) $(PROBE) $(ECHO): $(wildcard linker/*.ld)
+$(IMAGE) $(UNIT_IMAGE) $(PROBE) $(CONTROLLER) $(ECHO): $(wildcard linker/*.ld)
 	$(call say,LD,$@)
 	$(Q)$(BOARD_CC) $(CFLAGS_BOARD) $(BOARD_LDFLAGS) $(filter %.o,$^) -o $@ $(BOARD_LIBS)
 
