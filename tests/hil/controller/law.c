@@ -37,9 +37,10 @@ static void enter(struct law *law, enum law_phase phase)
     law->quiet_turns = 0u;
 }
 
+/* To the nearest turn. */
 static bool lasts(uint32_t turns, float time_s, const struct law_settings *settings)
 {
-    return (float)turns * settings->turn_s >= time_s;
+    return ((float)turns + 0.5f) * settings->turn_s >= time_s;
 }
 
 /* What was heard at this pressure must not be heard again: further down now, and more slowly up next time. */
