@@ -3,8 +3,6 @@
 
 #include "base/fmath.h"
 
-/* A jump of pressure makes the pad ring at its own 2 kHz. A turn is two and a half of these periods (conversation.h), so what
- * a jump sets going, the opposite one two turns later takes away; one or three turns later it would double it. */
 enum { DITHER_HALF_TURNS = 2 };
 
 struct law_settings law_usual(float turn_s)
@@ -12,13 +10,13 @@ struct law_settings law_usual(float turn_s)
     return (struct law_settings){
         .turn_s = turn_s,
         .build_pa_per_s = 130e5f,
-        .build_least_pa_per_s = 16e5f,
-        .careful_ratio = 0.25f,
+        .build_least_pa_per_s = 15e5f,
+        .careful_ratio = 0.125f,
         .release_pa_per_s = 650e5f,
-        .ease_per_s = 1.0f,
-        .keep_ratio = 0.6f,
+        .ease_per_s = 2.0f,
+        .keep_ratio = 0.55f,
         .lower_ratio = 0.8f,
-        .dither_ratio = 0.02f,
+        .dither_ratio = 0.01f,
         .hold_s = 0.02f,
         .calm_s = 0.06f,
         .patience_s = 0.08f,
@@ -47,7 +45,7 @@ static bool lasts(uint32_t turns, float time_s, const struct law_settings *setti
 static void back_off(struct law *law, const struct law_settings *settings)
 {
     law->squeals++;
-    law->low_pa = settings->keep_ratio * law->pressure_pa;
+    law->low_pa = settings->keep_ratio * law->wanted_pa;
     law->build_pa_per_s = fmath_max(settings->careful_ratio * law->build_pa_per_s, settings->build_least_pa_per_s);
     enter(law, LAW_RELEASE);
 }
@@ -76,7 +74,7 @@ static void decide(struct law *law, const struct law_settings *settings, uint8_t
         }
         break;
     case LAW_RELEASE:
-        if (law->pressure_pa <= law->low_pa) {
+        if (law->wanted_pa <= law->low_pa) {
             enter(law, LAW_DITHER);
         }
         break;
@@ -96,15 +94,15 @@ static float dithered(const struct law *law, const struct law_settings *settings
     return law->low_pa * (1.0f + (is_up ? settings->dither_ratio : -settings->dither_ratio));
 }
 
-static float pressure(const struct law *law, const struct law_settings *settings)
+static float wanted(const struct law *law, const struct law_settings *settings)
 {
     switch (law->phase) {
     case LAW_BUILD:
-        return law->pressure_pa + law->build_pa_per_s * settings->turn_s;
+        return law->wanted_pa + law->build_pa_per_s * settings->turn_s;
     case LAW_HOLD:
-        return law->pressure_pa * (1.0f - settings->ease_per_s * settings->turn_s);
+        return law->wanted_pa * (1.0f - settings->ease_per_s * settings->turn_s);
     case LAW_RELEASE:
-        return fmath_max(law->pressure_pa - settings->release_pa_per_s * settings->turn_s, law->low_pa);
+        return fmath_max(law->wanted_pa - settings->release_pa_per_s * settings->turn_s, law->low_pa);
     case LAW_DITHER:
         return dithered(law, settings);
     case LAW_SAFE:
@@ -119,6 +117,7 @@ struct law law_next(const struct law_settings *settings, const struct law *now, 
 
     if (now->phase == LAW_SAFE || !inputs->is_sound) {
         enter(&next, LAW_SAFE);
+        next.wanted_pa = 0.0f;
         next.pressure_pa = 0.0f;
         return next;
     }
@@ -128,7 +127,8 @@ struct law law_next(const struct law_settings *settings, const struct law *now, 
     next.phase_turns++;
     next.quiet_turns = inputs->propensity == PROPENSITY_QUIET ? next.quiet_turns + 1u : 0u;
     decide(&next, settings, inputs->propensity);
-    next.pressure_pa = fmath_min(pressure(&next, settings), inputs->demand_pa);
+    next.wanted_pa = fmath_min(wanted(&next, settings), inputs->demand_pa);
+    next.pressure_pa = fmath_min(0.5f * (now->wanted_pa + next.wanted_pa), inputs->demand_pa);
     return next;
 }
 

@@ -19,6 +19,10 @@
  * RELEASE   pressure falls to keep_ratio of what squealed, or by another step to lower_ratio of what did not calm down.
  * DITHER    pressure jumps about the low one until the pad has come to rest.
  *
+ * A jump of pressure makes the pad ring at its own 2 kHz, and a ringing pad is what squeal grows from. A turn is two and a half
+ * of these periods (conversation.h), so of a jump made in two equal halves, a turn apart, the second takes away what the
+ * first set going. That is all that the mean of two turns does.
+ *
  * Pressure never exceeds the demand; a demand of 0 releases at once and forgets what was learned. */
 #ifndef LAW_H
 #define LAW_H
@@ -52,6 +56,7 @@ struct law_inputs {
 struct law {
     enum law_phase phase;
     float pressure_pa; /* to be applied in the turn that comes */
+    float wanted_pa;   /* what the phase wants; the mean of two turns' is applied */
     float low_pa;      /* that RELEASE goes to and DITHER keeps about */
     float build_pa_per_s;
     uint32_t phase_turns; /* since the phase began */
