@@ -75,7 +75,7 @@ $(shell mkdir -p build && echo '$(BUILD_ID)' >build/build_id)
 endif
 
 # --- Rules ----------------------------------------------------------------------------------------------------------
-.PHONY: all run tool monitor console test golden oracle detector noise frames bench-link bench-link-on debug check size clean help setup other-images host-image command
+.PHONY: all run tool monitor console test golden oracle hil detector noise frames bench-link bench-link-on debug check size clean help setup other-images host-image command
 .DELETE_ON_ERROR:
 
 all: $(IMAGE) $(CONTROLLER) ## build the firmware and the controller of tests/hil for BOARD (default mps2-an386)
@@ -205,6 +205,9 @@ oracle: $(ORACLE) ## make golden rows for any parameters: the cases of CASES= in
 # makes the truth anew: that takes its time.
 MERIT_OUT := build/detector/$(SEED)-$(COUNT)
 
+hil: $(IMAGE) $(CONTROLLER) ## a second firmware brakes with the plant, in lockstep over the link; results in build/hil
+	$(Q)COMMANDS="$(BOARD): $(COMMAND)" timeout 600 tests/hil/hil.py --board $(BOARD) --out build/hil
+
 detector: $(MERIT) $(MERIT_OUT)/truth.csv ## the detector on COUNT= random cases of seed SEED= against the oracle (ARITH="f32 q27")
 	$(Q)trap 'cat $(MERIT_OUT)/table.txt' EXIT; cp $(MERIT_OUT)/cases.txt $(MERIT_OUT)/table.txt; \
 	$(MERIT) check --truth $(MERIT_OUT)/truth.csv --disagree $(MERIT_OUT)/disagree.csv \
@@ -235,9 +238,9 @@ bench-link: ## count turns of lockstep a second, beside what the line alone take
 bench-link-on: $(IMAGE) $(ECHO) $(BENCH_LINK)
 	$(Q)$(BENCH_LINK) --turns $(TURNS) --socket $(LINK) -- $(COMMAND) $(if $(ECHO),-- $(BOARD_RUN) $(ECHO))
 
-test: $(IMAGE) $(UNIT_IMAGE) $(PROBE) $(UNIT_HOST) $(TOOL) $(ORACLE) $(CAMPAIGN) $(MERIT) $(PICTURES) $(BENCH_LINK) $(ECHO) other-images ## run everything that a change must pass
+test: $(IMAGE) $(CONTROLLER) $(UNIT_IMAGE) $(PROBE) $(UNIT_HOST) $(TOOL) $(ORACLE) $(CAMPAIGN) $(MERIT) $(PICTURES) $(BENCH_LINK) $(ECHO) other-images ## run everything that a change must pass
 	$(Q)COMMANDS="$$(for board in $(BOARDS); do $(MAKE) -s --no-print-directory BOARD=$$board command; done)"; export COMMANDS; \
-	BOARD=$(BOARD) BOARD_RUN="$(BOARD_RUN)" IMAGE=$(IMAGE) UNIT_IMAGE=$(UNIT_IMAGE) PROBE=$(PROBE) \
+	BOARD=$(BOARD) BOARD_RUN="$(BOARD_RUN)" IMAGE=$(IMAGE) CONTROLLER=$(CONTROLLER) UNIT_IMAGE=$(UNIT_IMAGE) PROBE=$(PROBE) \
 	    UNIT_HOST=$(UNIT_HOST) HOST_IMAGE=build/host/squeal TOOL=$(TOOL) ORACLE=$(CURDIR)/$(ORACLE) CAMPAIGN=$(CAMPAIGN) MERIT=$(CURDIR)/$(MERIT) \
 	    PICTURES=$(CURDIR)/$(PICTURES) BENCH_LINK=$(BENCH_LINK) tools/tap_summary $(wildcard tests/*.t tests/system/*.t)
 
@@ -262,9 +265,10 @@ debug: $(IMAGE) ## halt the emulated board at reset and attach gdb; the console 
 	until [ -S $(OUT_BOARD)/gdb.sock ] || ! kill -0 $$! 2>/dev/null; do sleep 0.1; done; \
 	gdb-multiarch -q -ex 'target remote $(OUT_BOARD)/gdb.sock' -ex 'break main' $(GDB_ARGS) $(IMAGE)
 
-check: $(IMAGE) ## check layers, forbidden symbols, documents and the formatting
+check: $(IMAGE) $(CONTROLLER) ## check layers, forbidden symbols, documents and the formatting
 	$(Q)tools/check_layers
 	$(Q)tools/check_symbols $(IMAGE)
+	$(Q)tools/check_symbols $(CONTROLLER)
 	$(Q)tools/check_snapshot
 	$(Q)tools/check_docs
 	$(Q)tools/gen_tables --check

@@ -17,7 +17,7 @@ from pair import COLUMNS, PHASES, PROPENSITIES, Pair, Silence  # noqa: E402
 SQUEAL, QUIET = PROPENSITIES.index("squeal"), PROPENSITIES.index("quiet")
 ACTION_S = 0.02         # from hearing to a release that shows in the brake force
 KEPT, LESS = 0.5, 0.25  # least share of the torque that the law keeps; at most so much of the squeal without it
-FIRST_RUN_S = 120.0     # no line of the console takes longer
+LINE_S = 60.0           # no line of the console takes longer
 
 
 def episodes(stop):
@@ -38,6 +38,10 @@ def episodes(stop):
 
 def bar(pascal):
     return f"{pascal / 1e5:.2f} bar"
+
+
+def swing_um(stop):
+    return 1e6 * max(row["amplitude_m"] for row in stop.rows)
 
 
 def told(row, text):
@@ -108,7 +112,7 @@ set datafile separator ','
 set border 3 lc rgb '#606060'
 set tics nomirror out
 set grid lc rgb '#ececec' lt 1
-set key top right samplen 2
+set key at graph 1,1.14 right horizontal maxrows 1 samplen 1.5 width -3
 set xrange [0:{end_s}]
 set multiplot
 """
@@ -117,17 +121,15 @@ set lmargin at screen {left}
 set rmargin at screen {right}
 set format x ''
 unset xlabel
-set title "{title}" offset 0,-0.4
-set tmargin at screen 0.93
+set title "{title}" offset 0,1.6
+set tmargin at screen 0.91
 set bmargin at screen 0.70
 set yrange [0:{force_top}]
 set ytics 1000
 set ylabel '{force}'
-set label 1 'border c/|α|' at {end_s},{border} right offset 0,0.6 tc rgb '#909090'
 plot '{csv}' every ::1 using 4:($6*{area}) with lines lw 2 lc rgb '#b0b0b0' title 'demanded', \\
   '' every ::1 using 4:($7*{area}) with lines lw 2.5 lc rgb '#1f4e79' title 'applied', \\
-  {border} with lines lw 1 dt 2 lc rgb '#909090' notitle
-unset label 1
+  {border} with lines lw 1.5 dt 2 lc rgb '#909090' title 'c/|α|'
 unset title
 set tmargin at screen 0.66
 set bmargin at screen 0.49
@@ -157,10 +159,10 @@ def draw(out, law, free, border_n):
     if not shutil.which("gnuplot"):
         return False
     rows = law.rows + free.rows
-    swing = 1e6 * max(row["amplitude_m"] for row in rows)
+    swing = max(swing_um(law), swing_um(free))
     tic = next(tic for tic in (1, 2, 5, 10, 20, 50, 100, 1000) if swing / tic <= 5)
     top = {"end_s": 1.02 * max(row["t_s"] for row in rows), "area": law.opened["piston_area_m2"], "border": border_n,
-           "force_top": 1.25 * max(row["demand_pa"] for row in rows) * law.opened["piston_area_m2"],
+           "force_top": 1.1 * max(row["demand_pa"] for row in rows) * law.opened["piston_area_m2"],
            "speed_top": 1.1 * max(row["speed_m_per_s"] for row in rows), "swing_top": 1.1 * swing, "swing_tic": tic,
            "names": "(" + ",".join(f"'{name}' {number}" for number, name in enumerate(PROPENSITIES)) + ")"}
     script = ""
@@ -169,17 +171,17 @@ def draw(out, law, free, border_n):
         script += PANELS.format(csv=f"{out}/stop-law.csv", title="with the law", left=0.09, right=0.52, force="brake force N  [N]",
                                 speed="vehicle  [m/s]", swing="swing of the pad  [µm]", **top)
         script += PANELS.format(csv=f"{out}/stop-free.csv", title="law switched off", left=0.61, right=0.98, force="",
-                                speed="", swing="", **{**top, "names": top["names"]})
+                                speed="", swing="", **top)
         script += "unset multiplot\n"
     subprocess.run(["gnuplot"], input=script.encode(), check=True, timeout=60)
     return True
 
 
 def run(arguments):
-    with Pair(arguments.board, arguments.controller, limit_s=FIRST_RUN_S) as pair:
+    with Pair(arguments.board, arguments.controller, limit_s=LINE_S) as pair:
         law = pair.stop(f"stop {arguments.speed:g} law")
         free = pair.stop(f"stop {arguments.speed:g} free")
-        border_n = pair.plant.parameter("c") / -pair.plant.parameter("alpha")
+        border_n = float(pair.plant.ask("get c")["c"]) / -float(pair.plant.ask("get alpha")["alpha"])
     return law, free, border_n
 
 
@@ -194,11 +196,11 @@ def tell(arguments, law, free):
             print("\n".join(story(stop, has_law)))
     if not (law.end.startswith("score") and free.end.startswith("score")):
         return
-    print("\nscore               brake torque kept   time with squeal    standstill after")
+    print("\nscore               brake torque kept   time with squeal    largest swing   standstill after")
     for stop, name in ((law, "with the law"), (free, "law switched off")):
         time_s = stop.score("t_s")
         print(f"{name:<20}{100 * stop.score('kept'):5.1f} %             {100 * stop.score('squeal'):5.1f} %, "
-              f"{stop.score('squeal') * time_s:5.3f} s    {time_s:.3f} s")
+              f"{stop.score('squeal') * time_s:5.3f} s    {swing_um(stop):5.1f} um        {time_s:.3f} s")
 
 
 def main():

@@ -69,15 +69,15 @@ class Child:
             self.pump(0.1)
         return self.lines.pop(0)
 
-    def parameter(self, symbol):
-        """What the plant's console says of a parameter."""
-        self.send(f"get {symbol}")
+    def ask(self, line):
+        """The fields of a plant's answer."""
+        self.send(line)
         while True:
-            line = self.line()
-            if line.startswith("error"):
-                raise Silence(f"{line} (get {symbol})")
-            if line.startswith("ok get "):
-                return float(read_fields(line)[symbol])
+            answer = self.line()
+            if answer.startswith("error"):
+                raise Silence(f"{line}: {answer}")
+            if answer.startswith(f"ok {line.split()[0]} "):  # not that of an order before
+                return read_fields(answer)
 
     def freeze(self, is_frozen):
         os.killpg(self.process.pid, signal.SIGSTOP if is_frozen else signal.SIGCONT)
@@ -136,7 +136,7 @@ def read_fields(line):
 
 
 class Pair:
-    """A plant and its controller, booted and wired. tamper(turn), if given, is called after every line of a turn."""
+    """A plant and its controller, booted and wired."""
 
     def __init__(self, plant="mps2-an386", controller=None, limit_s=30.0):
         self.folder = tempfile.TemporaryDirectory(prefix="squeal-hil-")
@@ -167,7 +167,8 @@ class Pair:
         self.folder.cleanup()
 
     def stop(self, order, tamper=None):
-        """Gives the order, "stop 2 law" say, and returns the Stop that it made."""
+        """Gives the order, "stop 2 law" say, and returns the Stop that it made. tamper(pair, stop), if given, is called after
+        each line of the controller's but the last."""
         stop = Stop()
         self.controller.send(order)
         while not stop.take(self.controller.line()):

@@ -135,6 +135,17 @@ static void check_halves(void)
     tap_check_close(law.pressure_pa, 4500.0f, 0.1f, "and the other");
 }
 
+static void check_patience(void)
+{
+    build();
+    turns(3u, PROPENSITY_SQUEAL);
+    turns(5u, PROPENSITY_WATCH);
+    turns(4u, PROPENSITY_QUIET);
+    tap_check(law.phase == LAW_DITHER, "who has just calmed down is given the time to prove it");
+    turn(PROPENSITY_WATCH, 1e6f);
+    tap_check(law.phase == LAW_RELEASE, "and no more");
+}
+
 static void check_end(void)
 {
     struct law before;
@@ -149,7 +160,9 @@ static void check_end(void)
     law = law_next(&settings, &before, &(struct law_inputs){.demand_pa = 1e6f, .propensity = PROPENSITY_QUIET});
     tap_check(law.phase == LAW_SAFE && law.pressure_pa == 0.0f, "a plant that is not sound: safe, no pressure");
     turns(20u, PROPENSITY_QUIET);
-    tap_check(law.phase == LAW_SAFE && law.pressure_pa == 0.0f, "and so it stays");
+    turn(PROPENSITY_QUIET, 0.0f);
+    turn(PROPENSITY_QUIET, 1e6f);
+    tap_check(law.phase == LAW_SAFE && law.pressure_pa == 0.0f, "and so it stays, whatever the driver does");
     tap_check(before.phase == LAW_BUILD && before.wanted_pa > 9999.0f, "what it was is not touched");
     tap_check_text(law_phase_name(LAW_SAFE), "safe", "phases have names");
 }
@@ -178,6 +191,7 @@ void test_law(void)
     check_hold();
     check_release();
     check_dither();
+    check_patience();
     check_halves();
     check_end();
     check_anything();
