@@ -4,7 +4,7 @@ the story, keeps every turn as CSV, draws it, and fails if the story did not hap
 
     hil.py [--board BOARD] [--controller BOARD] [--speed M_PER_S] [--out FOLDER]
 
-Standard library only, and gnuplot for the picture. COMMANDS in the environment: see pair.py; make hil sets it."""
+Standard library only, and gnuplot for the picture. COMMANDS in the environment: see rig.py; make hil sets it."""
 import argparse
 import os
 import shutil
@@ -12,7 +12,7 @@ import subprocess
 import sys
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from pair import COLUMNS, PHASES, PROPENSITIES, Pair, Silence  # noqa: E402
+from rig import COLUMNS, PHASES, PROPENSITIES, Rig, Silence  # noqa: E402
 
 SQUEAL, QUIET = PROPENSITIES.index("squeal"), PROPENSITIES.index("quiet")
 ACTION_S = 0.02         # from hearing to a release that shows in the brake force
@@ -178,10 +178,10 @@ def draw(out, law, free, border_n):
 
 
 def run(arguments):
-    with Pair(arguments.board, arguments.controller, limit_s=LINE_S) as pair:
-        law = pair.stop(f"stop {arguments.speed:g} law")
-        free = pair.stop(f"stop {arguments.speed:g} free")
-        border_n = float(pair.plant.ask("get c")["c"]) / -float(pair.plant.ask("get alpha")["alpha"])
+    with Rig(arguments.board, arguments.controller, limit_s=LINE_S) as rig:
+        law = rig.stop(f"stop {arguments.speed:g} law")
+        free = rig.stop(f"stop {arguments.speed:g} free")
+        border_n = float(rig.plant.ask("get c")["c"]) / -float(rig.plant.ask("get alpha")["alpha"])
     return law, free, border_n
 
 

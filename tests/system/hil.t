@@ -10,7 +10,7 @@ HERE = os.path.dirname(os.path.abspath(__file__))
 sys.path[:0] = [HERE, os.path.join(HERE, "..", "hil")]
 from firmware import Tap  # noqa: E402
 import hil  # noqa: E402
-from pair import PHASES, Pair  # noqa: E402
+from rig import PHASES, Rig  # noqa: E402
 
 BOARD = os.environ["BOARD"]
 STEPS = 20000
@@ -26,12 +26,12 @@ def sleepless(turn_count):
     """Stops either side for a while, at random, every so many turns."""
     dice, clock = random.Random(time.time()), {"next": 0, "stops": 0}
 
-    def tamper(pair, stop):
+    def tamper(rig, stop):
         if len(stop.rows) < clock["next"]:
             return
         clock["next"] = len(stop.rows) + dice.randint(1, turn_count)
         clock["stops"] += 1
-        child = dice.choice(pair.children)
+        child = dice.choice(rig.children)
         child.freeze(True)
         time.sleep(dice.choice([0.02, 0.05, 0.3]))
         child.freeze(False)
@@ -40,14 +40,14 @@ def sleepless(turn_count):
 
 
 # --- The same bits ---------------------------------------------------------------------------------------------------
-with Pair(BOARD) as pair:
+with Rig(BOARD) as rig:
     tamper, clock = sleepless(40)
-    first = pair.stop("stop 0.4 law", tamper)
-    second = pair.stop("stop 0.4 law", tamper)
+    first = rig.stop("stop 0.4 law", tamper)
+    second = rig.stop("stop 0.4 law", tamper)
     # A board without an FPU starts in fixed point: the host is to do as the board does.
-    arith = pair.plant.ask("get arith")["arith"]
-with Pair("host") as pair:
-    truth = pair.stop(f"stop 0.4 law {arith}")
+    arith = rig.plant.ask("get arith")["arith"]
+with Rig("host") as rig:
+    truth = rig.stop(f"stop 0.4 law {arith}")
 tap.check(truth.end.startswith("score") and truth.rows[-1]["step"] >= STEPS and len(set(truth.hashes())) == len(truth.rows),
           f"two processes go {truth.rows[-1]['step']} steps in {len(truth.rows)} turns", truth.end)
 for stop in (first, second):
@@ -58,11 +58,11 @@ tap.note(f"{clock['stops']} stops; {first.fields.get('repeated')} and {second.fi
 tap.check(clock["stops"] > 5, "they did stop")
 
 # --- What the law promises -------------------------------------------------------------------------------------------
-with Pair("host") as pair:
-    law = pair.stop("stop 2 law")
-    free = pair.stop("stop 2 free")
-    again = pair.stop("stop 2 law q27")
-    odd = [pair.stop(order).end.split(":")[0] for order in ("go", "stop", "stop x law", "stop 2 law f64", "stop 2 law f32 now")]
+with Rig("host") as rig:
+    law = rig.stop("stop 2 law")
+    free = rig.stop("stop 2 free")
+    again = rig.stop("stop 2 law q27")
+    odd = [rig.stop(order).end.split(":")[0] for order in ("go", "stop", "stop x law", "stop 2 law f64", "stop 2 law f32 now")]
 wrong = hil.check(law, free)
 tap.check(not wrong, "squeal, action, quiet, standstill", *wrong)
 tap.check(not hil.check(again, free), "in fixed point too")
@@ -78,23 +78,23 @@ tap.check(odd == ["error not an order"] * 5, "what is no order is told so", str(
 
 # --- What goes wrong -------------------------------------------------------------------------------------------------
 for where in ("host", BOARD):
-    with Pair(where) as pair:
-        def kill(pair, stop):
-            if len(stop.rows) == 20 and pair.plant.process.returncode is None:
-                pair.plant.process.kill()
-                pair.plant.process.wait()
-                pair.plant.pump = lambda wait_s: None
-        lost = pair.stop("stop 2 law", kill)
+    with Rig(where) as rig:
+        def kill(rig, stop):
+            if len(stop.rows) == 20 and rig.plant.process.returncode is None:
+                rig.plant.process.kill()
+                rig.plant.process.wait()
+                rig.plant.pump = lambda wait_s: None
+        lost = rig.stop("stop 2 law", kill)
     tap.check(lost.end == "lost step: no answer in 3.2 s" and is_safe(lost) and 20 <= len(lost.rows) < 200,
               f"{where}: the plant is killed: the controller says so and releases the brake", lost.end, str(lost.phases))
 
-with Pair("host") as pair:
-    def start(pair, stop):
+with Rig("host") as rig:
+    def start(rig, stop):
         if len(stop.rows) == 100:
-            pair.plant.send("run")
-    refused = pair.stop("stop 2 law", start)
-    pair.plant.ask("stop")
-    load = pair.plant.ask("step 1")["N"]
+            rig.plant.send("run")
+    refused = rig.stop("stop 2 law", start)
+    rig.plant.ask("stop")
+    load = rig.plant.ask("step 1")["N"]
 tap.check(refused.end.startswith("refused step is-running ") and is_safe(refused),
           "somebody else starts the plant: the controller says why it stops", refused.end)
 tap.check(load == "0", "and has released the brake", load)

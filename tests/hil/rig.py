@@ -83,18 +83,23 @@ class Child:
         os.killpg(self.process.pid, signal.SIGSTOP if is_frozen else signal.SIGCONT)
 
 
-def plant_command(board, link):
+def wired(board, link, options):
+    """The board's command with its link at a socket. mux: as in hal/mps2/mps2.mk."""
     command = shlex.split(COMMANDS[board])
     if "null" in command:
-        command[command.index("null")] = f"unix:{link},server=on,wait=off"
-    return command, {"SQUEAL_LINK": f"unix:{link}"}
+        at = command.index("null")
+        command[at - 1:at + 1] = ["-chardev", f"socket,id=link,path={link},mux=on{options}", "-serial", "chardev:link", "-echr", "256"]
+    return command
+
+
+def plant_command(board, link):
+    return wired(board, link, ",server=on,wait=off"), {"SQUEAL_LINK": f"unix:{link}"}
 
 
 def controller_command(board, link):
     """The controller measures silence, so its clock is that of the wall: no -icount, or real time on the host."""
-    command = shlex.split(COMMANDS[board])
-    if "null" in command:
-        command[command.index("null")] = f"unix:{link}"
+    command = wired(board, link, "")
+    if "-icount" in command:
         at = command.index("-icount")
         del command[at:at + 2]
     folder, image = os.path.split(command[-1])
@@ -135,7 +140,7 @@ def read_fields(line):
     return dict(word.split("=", 1) for word in line.split() if "=" in word)
 
 
-class Pair:
+class Rig:
     """A plant and its controller, booted and wired."""
 
     def __init__(self, plant="mps2-an386", controller=None, limit_s=30.0):
@@ -167,7 +172,7 @@ class Pair:
         self.folder.cleanup()
 
     def stop(self, order, tamper=None):
-        """Gives the order, "stop 2 law" say, and returns the Stop that it made. tamper(pair, stop), if given, is called after
+        """Gives the order, "stop 2 law" say, and returns the Stop that it made. tamper(rig, stop), if given, is called after
         each line of the controller's but the last."""
         stop = Stop()
         self.controller.send(order)
