@@ -70,7 +70,8 @@ static void check_opening(void)
 
     open(-1.0f);
     tap_check(conversation.phase == CONVERSATION_OPENING && reaches(CONVERSATION_READY), "it opens");
-    tap_check(params->load_end_n == 3000.0f && params->load_max_n == 6000.0f && params->arithmetic == (float)ARITH_F32,
+    tap_check(params->load_end_n == 3000.0f && params->load_max_n == 6000.0f && params->safe_s == 0.05f &&
+                  params->arithmetic == (float)ARITH_F32,
               "the preset and what the controller wants otherwise are in force");
     tap_check(conversation.brake.pad_kg == 0.3f && conversation.brake.contact_n_per_m == 4e7f &&
                   conversation.brake.caliper_n_per_m == 7.5e6f && conversation.brake.friction_ratio == 0.42f &&

@@ -18,14 +18,19 @@ enum {
 
 static const char preset[] = "brake";
 
-/* What the controller wants otherwise than the preset has it. No bit depends on the last two, which make the plant quick. */
+/* What the controller wants otherwise than the preset has it. */
 static const struct setting {
     uint8_t index;
     float value;
 } settings[] = {
-    {INDEX_load_max_n, 6000.0f}, /* twice what the driver can ask for */
-    {INDEX_piston_area_m2, 0.00229f}, {INDEX_tyre_radius_m, 0.31f},
-    {INDEX_steps_per_tick, 16.0f},    {INDEX_tick_hz, 1000.0f},
+    {INDEX_load_max_n, 6000.0f},      /* twice what the driver can ask for */
+    {INDEX_piston_area_m2, 0.00229f}, /* of this vehicle */
+    {INDEX_tyre_radius_m, 0.31f},     /* the same */
+    {INDEX_stale_s, 0.01f},           /* should the controller fall silent while the plant runs, ... */
+    {INDEX_safe_s, 0.05f},            /* ... the plant opens the brake by itself ... */
+    {INDEX_ramp_s, 0.05f},            /* ... in this time */
+    {INDEX_steps_per_tick, 16.0f},    /* no bit depends on these two, */
+    {INDEX_tick_hz, 1000.0f},         /* which make the plant quick */
 };
 
 static const struct reading {
