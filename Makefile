@@ -35,12 +35,15 @@ SOURCES_BENCH := $(filter src/base/% src/model/%,$(SOURCES)) src/protocol/frame.
 SOURCES_PICTURES := $(wildcard tests/monitor/*.c) tools/squeal/plot/spectrum.c $(addprefix tools/squeal/monitor/,canvas.c keys.c \
                     letters.c lines.c panels.c panels_overlay.c panels_plots.c panels_words.c picture.c screen.c trace.c)
 SOURCES_CONVERGE := $(filter-out src/protocol/%,$(SOURCES)) $(filter-out tests/oracle/main.c,$(wildcard tests/oracle/*.c)) $(wildcard tests/converge/*.c) tools/squeal/support/broken.c
+# The controller of tests/hil: all but its main is tested with the rest.
+SOURCES_LAW   := $(filter-out %/main.c,$(wildcard tests/hil/controller/*.c))
 UNIT_TESTS    := $(filter-out tests/unit/platform_host.c,$(wildcard tests/unit/*.c))
 
 OUT_BOARD  := build/$(BOARD)
 IMAGE      := $(OUT_BOARD)/squeal$(BOARD_SUFFIX)
 UNIT_IMAGE := $(OUT_BOARD)/unit$(BOARD_SUFFIX)
 PROBE      := $(OUT_BOARD)/probe$(BOARD_SUFFIX)
+CONTROLLER := $(OUT_BOARD)/controller$(BOARD_SUFFIX)
 UNIT_HOST  := build/unit/host
 TOOL       := build/tools/squeal
 BOARDS_LIST := build/tools/boards
@@ -54,9 +57,10 @@ PICTURES   := build/tests/monitor
 CONVERGE   := build/tests/converge
 
 OBJECTS_IMAGE := $(SOURCES_IMAGE:%.c=$(OUT_BOARD)/%.o)
-OBJECTS_UNIT  := $(patsubst %.c,$(OUT_BOARD)/%.o,$(SOURCES) $(SOURCES_BOARD) $(UNIT_TESTS) tests/target/platform.c)
+OBJECTS_UNIT  := $(patsubst %.c,$(OUT_BOARD)/%.o,$(SOURCES) $(SOURCES_BOARD) $(SOURCES_LAW) $(UNIT_TESTS) tests/target/platform.c)
 OBJECTS_PROBE := $(patsubst %.c,$(OUT_BOARD)/%.o,$(SOURCES) $(SOURCES_BOARD) tests/target/probe.c)
-OBJECTS_HOST  := $(patsubst %.c,build/unit/%.o,$(SOURCES) $(UNIT_TESTS) tests/unit/platform_host.c)
+OBJECTS_CONTROLLER := $(patsubst %.c,$(OUT_BOARD)/%.o,$(SOURCES) $(SOURCES_BOARD) $(SOURCES_LAW) tests/hil/controller/main.c src/app/fault.c)
+OBJECTS_HOST  := $(patsubst %.c,build/unit/%.o,$(SOURCES) $(SOURCES_LAW) $(UNIT_TESTS) tests/unit/platform_host.c)
 OBJECTS_TOOL  := $(SOURCES_TOOL:%.c=build/tools/%.o)
 OBJECTS_LINE  := $(patsubst %.c,build/tools/%.o,$(filter src/base/%,$(SOURCES)) src/protocol/frame.c $(wildcard tests/frames/*.c))
 OBJECTS_PICTURES := $(SOURCES_PICTURES:%.c=build/unit/%.o)
@@ -64,8 +68,8 @@ OBJECTS_MERIT := $(SOURCES_MERIT:%.c=build/tools/%.o)
 OBJECTS_CONVERGE := $(SOURCES_CONVERGE:%.c=build/tools/%.o)
 OBJECTS_BENCH := $(SOURCES_BENCH:%.c=build/tools/%.o)
 OBJECTS_ECHO  := $(patsubst %.c,$(OUT_BOARD)/%.o,$(filter src/base/%,$(SOURCES)) $(SOURCES_BOARD) tests/bench/link/echo.c)
-OBJECTS       := $(sort $(OBJECTS_IMAGE) $(OBJECTS_UNIT) $(OBJECTS_PROBE) $(OBJECTS_HOST) $(OBJECTS_TOOL) $(OBJECTS_LINE) $(OBJECTS_MERIT) $(OBJECTS_PICTURES) $(OBJECTS_CONVERGE) \
-                        $(OBJECTS_BENCH) $(if $(ECHO),$(OBJECTS_ECHO)))
+OBJECTS       := $(sort $(OBJECTS_IMAGE) $(OBJECTS_UNIT) $(OBJECTS_PROBE) $(OBJECTS_CONTROLLER) $(OBJECTS_HOST) $(OBJECTS_TOOL) \
+                        $(OBJECTS_LINE) $(OBJECTS_MERIT) $(OBJECTS_PICTURES) $(OBJECTS_CONVERGE) $(OBJECTS_BENCH) $(if $(ECHO),$(OBJECTS_ECHO)))
 
 # The commit's name is kept in a file that changes only when the name does.
 BUILD_ID := $(or $(shell GIT_OPTIONAL_LOCKS=0 git describe --always --dirty 2>/dev/null),unknown)
@@ -74,21 +78,22 @@ $(shell mkdir -p build && echo '$(BUILD_ID)' >build/build_id)
 endif
 
 # --- Rules ----------------------------------------------------------------------------------------------------------
-.PHONY: all run tool monitor console test golden oracle detector noise converge frames bench-link bench-link-on debug check size clean help setup other-images host-image command
+.PHONY: all run tool monitor console test golden oracle hil detector noise converge frames bench-link bench-link-on debug check size clean help setup other-images host-image command
 .DELETE_ON_ERROR:
 
-all: $(IMAGE) ## build the firmware for BOARD (default mps2-an386)
+all: $(IMAGE) $(CONTROLLER) ## build the firmware and the controller of tests/hil for BOARD (default mps2-an386)
 
 $(OUT_BOARD)/%.o: %.c
 	$(call say,CC,$@)
 	$(Q)mkdir -p $(@D)
 	$(Q)$(BOARD_CC) $(CFLAGS_BOARD) $(CFLAGS_EXTRA) -c $< -o $@
-$(OUT_BOARD)/tests/%.o: CFLAGS_EXTRA := -Itests/unit
+$(OUT_BOARD)/tests/%.o: CFLAGS_EXTRA := -Itests/unit -Itests
 
 build/unit/%.o: %.c
 	$(call say,CC,$@)
 	$(Q)mkdir -p $(@D)
 	$(Q)$(CC) $(CFLAGS_HOSTED) $(CFLAGS_EXTRA) $(SANITIZE) -c $< -o $@
+build/unit/tests/%.o: CFLAGS_EXTRA := -Itests
 build/unit/tools/%.o: CFLAGS_EXTRA := -Itools -D_XOPEN_SOURCE=700
 build/unit/tests/monitor/%.o: CFLAGS_EXTRA := -I. -Itools -D_XOPEN_SOURCE=700
 
@@ -110,8 +115,9 @@ $(OBJECTS): $(MAKEFILES_READ) | setup
 $(IMAGE): $(OBJECTS_IMAGE)
 $(UNIT_IMAGE): $(OBJECTS_UNIT)
 $(PROBE): $(OBJECTS_PROBE)
+$(CONTROLLER): $(OBJECTS_CONTROLLER)
 $(ECHO): $(OBJECTS_ECHO)
-$(IMAGE) $(UNIT_IMAGE) $(PROBE) $(ECHO): $(wildcard linker/*.ld)
+$(IMAGE) $(UNIT_IMAGE) $(PROBE) $(CONTROLLER) $(ECHO): $(wildcard linker/*.ld)
 	$(call say,LD,$@)
 	$(Q)$(BOARD_CC) $(CFLAGS_BOARD) $(BOARD_LDFLAGS) $(filter %.o,$^) -o $@ $(BOARD_LIBS)
 
@@ -207,6 +213,9 @@ oracle: $(ORACLE) ## make golden rows for any parameters: the cases of CASES= in
 # makes the truth anew: that takes its time.
 MERIT_OUT := build/detector/$(SEED)-$(COUNT)
 
+hil: $(IMAGE) $(CONTROLLER) ## a second firmware brakes with the plant, in lockstep over the link; results in build/hil
+	$(Q)COMMANDS="$(BOARD): $(COMMAND)" timeout 600 tests/hil/hil.py --board $(BOARD) --out build/hil
+
 detector: $(MERIT) $(MERIT_OUT)/truth.csv ## the detector on COUNT= random cases of seed SEED= against the oracle (ARITH="f32 q27")
 	$(Q)trap 'cat $(MERIT_OUT)/table.txt' EXIT; cp $(MERIT_OUT)/cases.txt $(MERIT_OUT)/table.txt; \
 	$(MERIT) check --truth $(MERIT_OUT)/truth.csv --disagree $(MERIT_OUT)/disagree.csv \
@@ -242,9 +251,9 @@ bench-link: ## count turns of lockstep a second, beside what the line alone take
 bench-link-on: $(IMAGE) $(ECHO) $(BENCH_LINK)
 	$(Q)$(BENCH_LINK) --turns $(TURNS) --socket $(LINK) -- $(COMMAND) $(if $(ECHO),-- $(BOARD_RUN) $(ECHO))
 
-test: $(IMAGE) $(UNIT_IMAGE) $(PROBE) $(UNIT_HOST) $(TOOL) $(ORACLE) $(CAMPAIGN) $(MERIT) $(PICTURES) $(CONVERGE) $(BENCH_LINK) $(ECHO) other-images ## run everything that a change must pass
+test: $(IMAGE) $(CONTROLLER) $(UNIT_IMAGE) $(PROBE) $(UNIT_HOST) $(TOOL) $(ORACLE) $(CAMPAIGN) $(MERIT) $(PICTURES) $(CONVERGE) $(BENCH_LINK) $(ECHO) other-images ## run everything that a change must pass
 	$(Q)COMMANDS="$$(for board in $(BOARDS); do $(MAKE) -s --no-print-directory BOARD=$$board command; done)"; export COMMANDS; \
-	BOARD=$(BOARD) BOARD_RUN="$(BOARD_RUN)" IMAGE=$(IMAGE) UNIT_IMAGE=$(UNIT_IMAGE) PROBE=$(PROBE) \
+	BOARD=$(BOARD) BOARD_RUN="$(BOARD_RUN)" IMAGE=$(IMAGE) CONTROLLER=$(CONTROLLER) UNIT_IMAGE=$(UNIT_IMAGE) PROBE=$(PROBE) \
 	    UNIT_HOST=$(UNIT_HOST) HOST_IMAGE=build/host/squeal TOOL=$(TOOL) ORACLE=$(CURDIR)/$(ORACLE) CAMPAIGN=$(CAMPAIGN) MERIT=$(CURDIR)/$(MERIT) \
 	    PICTURES=$(CURDIR)/$(PICTURES) CONVERGE=$(CURDIR)/$(CONVERGE) BENCH_LINK=$(BENCH_LINK) tools/tap_summary $(wildcard tests/*.t tests/system/*.t)
 
@@ -269,9 +278,10 @@ debug: $(IMAGE) ## halt the emulated board at reset and attach gdb; the console 
 	until [ -S $(OUT_BOARD)/gdb.sock ] || ! kill -0 $$! 2>/dev/null; do sleep 0.1; done; \
 	gdb-multiarch -q -ex 'target remote $(OUT_BOARD)/gdb.sock' -ex 'break main' $(GDB_ARGS) $(IMAGE)
 
-check: $(IMAGE) ## check layers, forbidden symbols, documents and the formatting
+check: $(IMAGE) $(CONTROLLER) ## check layers, forbidden symbols, documents and the formatting
 	$(Q)tools/check_layers
 	$(Q)tools/check_symbols $(IMAGE)
+	$(Q)tools/check_symbols $(CONTROLLER)
 	$(Q)tools/check_snapshot
 	$(Q)tools/check_docs
 	$(Q)tools/gen_tables --check

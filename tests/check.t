@@ -76,7 +76,10 @@ symbols() { # name, source text, complaint
 }
 
 case $IMAGE in
-*.elf) ok 'no forbidden symbol in the firmware' tools/check_symbols "$IMAGE" ;;
+*.elf)
+    ok 'no forbidden symbol in the firmware' tools/check_symbols "$IMAGE"
+    ok 'nor in the controller' tools/check_symbols "$CONTROLLER"
+    ;;
 esac
 cpu='-mcpu=cortex-m4 -mfpu=fpv4-sp-d16 -mfloat-abi=hard'
 symbols 'software double' 'float f(float x) { return x * 0.1; }' 'double precision: __aeabi_d2f __aeabi_dmul __aeabi_f2d'

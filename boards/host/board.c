@@ -3,8 +3,9 @@
  * alone. Time is virtual, one period a tick, as fast as the machine goes. With SQUEAL_REALTIME=1 in the environment ticks
  * and clock follow the monotonic clock instead.
  *
- * With SQUEAL_LINK=unix:PATH the link's other end is a socket there, for one peer at a time; without it, or while nobody
- * is connected, what is sent is gone and nothing comes.
+ * With SQUEAL_LINK=unix:PATH the link's other end is a socket there, for one peer at a time; with unix-connect:PATH this
+ * process is the peer of another that listens there. Without it, or while nobody is connected, what is sent is gone and
+ * nothing comes.
  */
 #include "board.h"
 

@@ -13,26 +13,47 @@ static struct {
     bool is_over;       /* a peer has come and gone */
 } line = {.listener = -1, .peer = -1};
 
+/* The rest of where after kind, if it begins so and fits an address. */
+static bool read_address(const char *where, const char *kind, struct sockaddr_un *address)
+{
+    const size_t length = strlen(kind);
+
+    if (strncmp(where, kind, length) != 0 || strlen(where + length) >= sizeof address->sun_path) {
+        return false;
+    }
+    *address = (struct sockaddr_un){.sun_family = AF_UNIX};
+    memcpy(address->sun_path, where + length, strlen(where + length));
+    return true;
+}
+
+static bool listen_at(const struct sockaddr_un *address)
+{
+    line.listener = socket(AF_UNIX, SOCK_STREAM, 0);
+    (void)unlink(address->sun_path); /* what an earlier process left behind */
+    return line.listener >= 0 && bind(line.listener, (const struct sockaddr *)address, sizeof *address) == 0 &&
+           listen(line.listener, 1) == 0 && fcntl(line.listener, F_SETFL, O_NONBLOCK) == 0;
+}
+
+static bool connect_to(const struct sockaddr_un *address)
+{
+    line.peer = socket(AF_UNIX, SOCK_STREAM, 0);
+    return line.peer >= 0 && connect(line.peer, (const struct sockaddr *)address, sizeof *address) == 0;
+}
+
 bool socket_open(const char *where)
 {
-    static const char kind[] = "unix:";
-    struct sockaddr_un address = {.sun_family = AF_UNIX};
-    const size_t kind_length = sizeof kind - 1u;
+    struct sockaddr_un address;
 
     if (where == NULL || where[0] == '\0') {
         return true;
     }
-    if (strncmp(where, kind, kind_length) != 0 || strlen(where + kind_length) >= sizeof address.sun_path) {
-        return false;
+    if (read_address(where, "unix:", &address)) {
+        return listen_at(&address);
     }
-    memcpy(address.sun_path, where + kind_length, strlen(where + kind_length));
-    line.listener = socket(AF_UNIX, SOCK_STREAM, 0);
-    (void)unlink(address.sun_path); /* what an earlier process left behind */
-    return line.listener >= 0 && bind(line.listener, (const struct sockaddr *)&address, sizeof address) == 0 &&
-           listen(line.listener, 1) == 0 && fcntl(line.listener, F_SETFL, O_NONBLOCK) == 0;
+    return read_address(where, "unix-connect:", &address) && connect_to(&address);
 }
 
-bool socket_is_over(void) { return line.listener < 0 || line.is_over; }
+bool socket_is_over(void) { return line.peer < 0 && (line.listener < 0 || line.is_over); }
 
 int socket_watch(fd_set *readable, fd_set *writable)
 {

@@ -7,13 +7,14 @@
 #include <stddef.h>
 #include <sys/select.h>
 
-/* Listens at "unix:PATH", or not at all if there is no text. False if it cannot. */
+/* Listens at "unix:PATH", connects to who listens there with "unix-connect:PATH", or does nothing if there is no text. False if
+ * it cannot. */
 bool socket_open(const char *where);
 
 /* Adds what should end a wait: a peer or its bytes, room where it refused some. Returns the descriptor, or -1. */
 int socket_watch(fd_set *readable, fd_set *writable);
 
-/* Will nobody ask for anything any more? A peer has come and gone, or there is no socket. */
+/* Will nobody ask for anything any more? The peer has come and gone, or there is no socket. */
 bool socket_is_over(void);
 
 /* As hal_uart_write() and hal_uart_read(). */
