@@ -16,6 +16,7 @@ CFLAGS_ALL := -std=c99 -O2 -g -ffp-contract=off -ffile-prefix-map=$(CURDIR)=. -I
               -Wall -Wextra -Wpedantic -Wconversion -Wshadow -Wundef -Wdouble-promotion -Wstrict-prototypes \
               -Wmissing-prototypes -Wcast-align -Wswitch-enum -Wvla -Werror
 CFLAGS_HOSTED := $(CFLAGS_ALL) -D_POSIX_C_SOURCE=200809L
+FUZZ_OPTIONS  := -max_len=128 -timeout=10 -entropic=0
 SANITIZE      := -fsanitize=address,undefined -fno-sanitize-recover=all
 
 LINK ?=
@@ -55,6 +56,8 @@ BENCH_LINK := build/tests/bench-link
 ECHO       := $(if $(BOARD_RUN),$(OUT_BOARD)/echo$(BOARD_SUFFIX))
 PICTURES   := build/tests/monitor
 CONVERGE   := build/tests/converge
+FUZZER     := build/fuzz/fuzzer
+REPLAY     := build/unit/fuzz
 
 OBJECTS_IMAGE := $(SOURCES_IMAGE:%.c=$(OUT_BOARD)/%.o)
 OBJECTS_UNIT  := $(patsubst %.c,$(OUT_BOARD)/%.o,$(SOURCES) $(SOURCES_BOARD) $(SOURCES_LAW) $(UNIT_TESTS) tests/target/platform.c)
@@ -67,9 +70,12 @@ OBJECTS_PICTURES := $(SOURCES_PICTURES:%.c=build/unit/%.o)
 OBJECTS_MERIT := $(SOURCES_MERIT:%.c=build/tools/%.o)
 OBJECTS_CONVERGE := $(SOURCES_CONVERGE:%.c=build/tools/%.o)
 OBJECTS_BENCH := $(SOURCES_BENCH:%.c=build/tools/%.o)
+OBJECTS_REPLAY := $(patsubst %.c,build/unit/%.o,$(SOURCES) $(wildcard tests/fuzz/*.c))
+OBJECTS_FUZZER := $(patsubst %.c,build/fuzz/%.o,$(SOURCES) $(filter-out tests/fuzz/files.c,$(wildcard tests/fuzz/*.c)))
 OBJECTS_ECHO  := $(patsubst %.c,$(OUT_BOARD)/%.o,$(filter src/base/%,$(SOURCES)) $(SOURCES_BOARD) tests/bench/link/echo.c)
 OBJECTS       := $(sort $(OBJECTS_IMAGE) $(OBJECTS_UNIT) $(OBJECTS_PROBE) $(OBJECTS_CONTROLLER) $(OBJECTS_HOST) $(OBJECTS_TOOL) \
-                        $(OBJECTS_LINE) $(OBJECTS_MERIT) $(OBJECTS_PICTURES) $(OBJECTS_CONVERGE) $(OBJECTS_BENCH) $(if $(ECHO),$(OBJECTS_ECHO)))
+                        $(OBJECTS_LINE) $(OBJECTS_MERIT) $(OBJECTS_PICTURES) $(OBJECTS_CONVERGE) $(OBJECTS_BENCH) \
+                        $(OBJECTS_REPLAY) $(OBJECTS_FUZZER) $(if $(ECHO),$(OBJECTS_ECHO)))
 
 # The commit's name is kept in a file that changes only when the name does.
 BUILD_ID := $(or $(shell GIT_OPTIONAL_LOCKS=0 git describe --always --dirty 2>/dev/null),unknown)
@@ -78,7 +84,7 @@ $(shell mkdir -p build && echo '$(BUILD_ID)' >build/build_id)
 endif
 
 # --- Rules ----------------------------------------------------------------------------------------------------------
-.PHONY: all run tool monitor console test golden oracle hil detector noise converge frames bench-link bench-link-on debug check size clean help setup other-images host-image command
+.PHONY: all run tool monitor console test golden oracle hil detector noise converge frames fuzz bench-link bench-link-on debug check size clean help setup setup-clang other-images host-image command
 .DELETE_ON_ERROR:
 
 all: $(IMAGE) $(CONTROLLER) ## build the firmware and the controller of tests/hil for BOARD (default mps2-an386)
@@ -96,6 +102,16 @@ build/unit/%.o: %.c
 build/unit/tests/%.o: CFLAGS_EXTRA := -Itests
 build/unit/tools/%.o: CFLAGS_EXTRA := -Itools -D_XOPEN_SOURCE=700
 build/unit/tests/monitor/%.o: CFLAGS_EXTRA := -I. -Itools -D_XOPEN_SOURCE=700
+build/unit/tests/fuzz/%.o: CFLAGS_EXTRA := -Ihal
+
+# The fuzzer is led by what the firmware does, not by the harness around it. Comparisons are left out of that: they take as
+# long as all the rest, and a dictionary has the words.
+build/fuzz/%.o: %.c
+	$(call say,CC,$@)
+	$(Q)mkdir -p $(@D)
+	$(Q)clang $(CFLAGS_HOSTED) -Ihal $(SANITIZE) -fsanitize=float-cast-overflow $(LEADING) -c $< -o $@
+build/fuzz/src/%.o build/fuzz/tests/fuzz/firmware.o: LEADING := -fsanitize=fuzzer-no-link -fno-sanitize-coverage=trace-cmp
+$(OBJECTS_FUZZER): | setup-clang
 
 build/tools/%.o: %.c
 	$(call say,CC,$@)
@@ -124,6 +140,18 @@ $(IMAGE) $(UNIT_IMAGE) $(PROBE) $(CONTROLLER) $(ECHO): $(wildcard linker/*.ld)
 $(UNIT_HOST): $(OBJECTS_HOST)
 	$(call say,LD,$@)
 	$(Q)$(CC) $(SANITIZE) $^ -o $@
+
+$(REPLAY): $(OBJECTS_REPLAY)
+	$(call say,LD,$@)
+	$(Q)$(CC) $(SANITIZE) $^ -o $@
+
+$(FUZZER): $(OBJECTS_FUZZER)
+	$(call say,LD,$@)
+	$(Q)clang $(SANITIZE) -fsanitize=fuzzer $^ -o $@
+
+build/fuzz/dictionary: tests/fuzz/dictionary $(wildcard src/*/*.def)
+	$(Q)mkdir -p $(@D)
+	$(Q)tests/fuzz/dictionary >$@
 
 $(TOOL): $(OBJECTS_TOOL) | $(BOARDS_LIST)
 	$(call say,LD,$@)
@@ -190,6 +218,7 @@ PAYLOAD    ?= 0-48
 SEED       ?= 1
 COUNT      ?= 10000
 TURNS      ?= 5000
+FUZZ_FOR   ?= 60
 
 run: $(IMAGE) $(TOOL) ## run the demonstration and the map, results in build/run (POINTS= of the map along an axis, 0: none)
 	$(Q)$(TOOL) demo --board $(BOARD) --out build/run $(if $(POINTS),--points $(POINTS)) -- $(COMMAND)
@@ -242,6 +271,14 @@ noise: host-image ## measure how much roughness starts squeal from rest, and how
 frames: $(CAMPAIGN) ## send FRAMES= frames over a line with bit errors BER= (DROP= DOUBLE= SWAP= a byte, PAYLOAD= SEED=)
 	$(Q)$(CAMPAIGN) --frames $(FRAMES) --ber $(BER) --drop $(DROP) --double $(DOUBLE) --swap $(SWAP) --payload $(PAYLOAD) --seed $(SEED)
 
+# What it learns stays in build/fuzz/corpus for the next time.
+fuzz: $(FUZZER) $(REPLAY) build/fuzz/dictionary ## throw random bytes at console and link for FUZZ_FOR= seconds, in two processes
+	$(Q)mkdir -p build/fuzz/corpus && cd build/fuzz && rm -f fuzz-*.log && \
+	{ ./fuzzer $(FUZZ_OPTIONS) -dict=dictionary -jobs=2 -workers=2 -max_total_time=$(FUZZ_FOR) corpus ../../tests/fuzz/corpus \
+	    </dev/null >/dev/null 2>&1; code=$$?; tail -qn 1 fuzz-*.log; \
+	    [ $$code = 0 ] || ls -t crash-* timeout-* oom-* 2>/dev/null | sed 's,^,build/fuzz/,;s,$$, breaks something: tests/fuzz/README.md says what to do,'; \
+	    exit $$code; }
+
 # What starts the firmware depends on LINK=.
 BENCH_SOCKET := $(OUT_BOARD)/bench.sock
 
@@ -251,11 +288,12 @@ bench-link: ## count turns of lockstep a second, beside what the line alone take
 bench-link-on: $(IMAGE) $(ECHO) $(BENCH_LINK)
 	$(Q)$(BENCH_LINK) --turns $(TURNS) --socket $(LINK) -- $(COMMAND) $(if $(ECHO),-- $(BOARD_RUN) $(ECHO))
 
-test: $(IMAGE) $(CONTROLLER) $(UNIT_IMAGE) $(PROBE) $(UNIT_HOST) $(TOOL) $(ORACLE) $(CAMPAIGN) $(MERIT) $(PICTURES) $(CONVERGE) $(BENCH_LINK) $(ECHO) other-images ## run everything that a change must pass
+test: $(IMAGE) $(CONTROLLER) $(UNIT_IMAGE) $(PROBE) $(UNIT_HOST) $(TOOL) $(ORACLE) $(CAMPAIGN) $(MERIT) $(PICTURES) $(CONVERGE) $(BENCH_LINK) $(ECHO) $(FUZZER) build/fuzz/dictionary $(REPLAY) other-images ## run everything that a change must pass
 	$(Q)COMMANDS="$$(for board in $(BOARDS); do $(MAKE) -s --no-print-directory BOARD=$$board command; done)"; export COMMANDS; \
 	BOARD=$(BOARD) BOARD_RUN="$(BOARD_RUN)" IMAGE=$(IMAGE) CONTROLLER=$(CONTROLLER) UNIT_IMAGE=$(UNIT_IMAGE) PROBE=$(PROBE) \
 	    UNIT_HOST=$(UNIT_HOST) HOST_IMAGE=build/host/squeal TOOL=$(TOOL) ORACLE=$(CURDIR)/$(ORACLE) CAMPAIGN=$(CAMPAIGN) MERIT=$(CURDIR)/$(MERIT) \
-	    PICTURES=$(CURDIR)/$(PICTURES) CONVERGE=$(CURDIR)/$(CONVERGE) BENCH_LINK=$(BENCH_LINK) tools/tap_summary $(wildcard tests/*.t tests/system/*.t)
+	    PICTURES=$(CURDIR)/$(PICTURES) CONVERGE=$(CURDIR)/$(CONVERGE) BENCH_LINK=$(BENCH_LINK) \
+	    FUZZER=$(FUZZER) FUZZ_OPTIONS="$(FUZZ_OPTIONS)" REPLAY=$(REPLAY) tools/tap_summary $(wildcard tests/*.t tests/system/*.t)
 
 tool: $(TOOL) ## build the host tool, build/tools/squeal; see its --help
 
@@ -295,6 +333,9 @@ clean: ## remove build/
 
 setup: ## find the tools that are missing and install them (SETUP=no only names them)
 	@tools/setup
+
+setup-clang: setup
+	@tools/setup clang
 
 help: ## print this list
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "  make %-9s %s\n", $$1, $$2 }' Makefile

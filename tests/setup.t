@@ -117,6 +117,14 @@ world 0
 SETUP=no
 export SETUP
 run 'a further tool is asked for by name' 1 "$command gdb-multiarch" '' gdb-multiarch
+run 'clang with its fuzzer' 1 "$command clang libclang-rt-dev" '' clang
+fake clang 'exit 1'
+run 'a clang without it' 1 "missing: libFuzzer
+setup: on Debian: $command libclang-rt-dev" '' clang
+fake clang ''
+run 'a clang that has it' 0 '' '' clang
+lose clang
+run 'is needed by the fuzzer alone' 0 '' ''
 unset SETUP
 
 echo "1..$count"

@@ -85,10 +85,9 @@ static bool poll(void)
     return link_poll(&link) || console_is_busy;
 }
 
-int main(void)
+static void start(void)
 {
-    struct identity identities[HAL_UART_COUNT];
-    bool is_busy;
+    static struct identity identities[HAL_UART_COUNT];
 
     for (unsigned port = 0u; port < HAL_UART_COUNT; port++) {
         identities[port] = (struct identity){
@@ -108,18 +107,30 @@ int main(void)
     console_init(&console, &executive, &turn, &work, &ends[HAL_UART_CONSOLE].output, &identities[HAL_UART_CONSOLE]);
     link_init(&link, &executive, &turn, &work, &ends[HAL_UART_LINK].output, &identities[HAL_UART_LINK]);
     console_banner(&console);
+}
+
+static void go_round(void)
+{
+    bool is_busy;
+
+    pump_input();
+    tell_the_ticks();
+    is_busy = poll();
+    isr_follow();
+    if (is_busy) {
+        (void)poll(); /* what the interrupt has done by now is answered at once */
+    }
+    is_busy = !pump_output(HAL_UART_CONSOLE) || is_busy;
+    is_busy = !pump_output(HAL_UART_LINK) || is_busy;
+    if (!is_busy) {
+        hal_idle();
+    }
+}
+
+int main(void)
+{
+    start();
     for (;;) {
-        pump_input();
-        tell_the_ticks();
-        is_busy = poll();
-        isr_follow();
-        if (is_busy) {
-            (void)poll(); /* what the interrupt has done by now is answered at once */
-        }
-        is_busy = !pump_output(HAL_UART_CONSOLE) || is_busy;
-        is_busy = !pump_output(HAL_UART_LINK) || is_busy;
-        if (!is_busy) {
-            hal_idle();
-        }
+        go_round();
     }
 }

@@ -74,6 +74,25 @@ static void choose_units(const struct params *params, float impedance, struct sc
     scale->speed_m_per_s = fmath_max(speed, params->friction_static_ratio * load / impedance);
 }
 
+static void derive_units(const struct params *params, float impedance, struct scale *scale)
+{
+    scale->omega_rad_per_s = fmath_sqrt(params->stiffness_normal_n_per_m / params->mass_kg);
+    scale->length_m = scale->speed_m_per_s / scale->omega_rad_per_s;
+    scale->normal_m = scale->load_n / params->stiffness_normal_n_per_m;
+    scale->force_n = impedance * scale->speed_m_per_s;
+    scale->steps_per_period = scale_steps_per_period(params);
+    scale->step = 2.0f * FMATH_PI / (float)scale->steps_per_period;
+    scale->step_s = scale->step / scale->omega_rad_per_s;
+}
+
+/* Everything is divided by the units, so none may be too small for that. */
+static bool has_units(const struct scale *scale)
+{
+    return scale->speed_m_per_s >= SCALE_UNIT_MIN && scale->length_m >= SCALE_UNIT_MIN &&
+           scale->normal_m >= SCALE_UNIT_MIN && scale->normal_m * scale->omega_rad_per_s >= SCALE_UNIT_MIN &&
+           scale->force_n >= SCALE_UNIT_MIN;
+}
+
 /* Does what the set can reach lie inside the units? */
 static struct params_problem check_fit(const struct params *params, const struct scale *scale)
 {
@@ -159,16 +178,10 @@ struct params_problem scale_derive(const struct params *params, const struct sca
     } else {
         choose_units(params, impedance, scale);
     }
-    if (!(scale->speed_m_per_s > 0.0f)) {
+    derive_units(params, impedance, scale);
+    if (!has_units(scale)) {
         return (struct params_problem){ERROR_NO_SCALE, NULL, 0.0f, 0.0f};
     }
-    scale->omega_rad_per_s = fmath_sqrt(params->stiffness_normal_n_per_m / params->mass_kg);
-    scale->length_m = scale->speed_m_per_s / scale->omega_rad_per_s;
-    scale->normal_m = scale->load_n / params->stiffness_normal_n_per_m;
-    scale->force_n = impedance * scale->speed_m_per_s;
-    scale->steps_per_period = scale_steps_per_period(params);
-    scale->step = 2.0f * FMATH_PI / (float)scale->steps_per_period;
-    scale->step_s = scale->step / scale->omega_rad_per_s;
     derive_groups(params, impedance, scale);
     scale->length_shift = latched != NULL ? latched->length_shift : length_shift(scale->stiffness);
 

@@ -22,6 +22,7 @@
 #define SCALE_FRICTION_MAX 8.0f   /* largest mu and |eps| */
 #define SCALE_RESERVE 4.0f        /* headroom for live changes where N_max or v_max is not given */
 #define SCALE_LENGTH_SHIFT_MAX 8u
+#define SCALE_UNIT_MIN 1e-30f           /* smallest unit, SI: an initial state in it is still a number */
 #define SCALE_ROUGHNESS_PEAK 1.7320508f /* largest over rms of a uniform distribution: sqrt 3 */
 #define SCALE_FAULT_SPEED 10.0f         /* the plant has left its domain beyond this multiple of max(|v0|, Vref) */
 

@@ -162,12 +162,15 @@ static void obey_next(struct console *console)
     }
 }
 
-static void write_samples(struct console *console)
+/* Writes samples as far as there is room. Returns true if there are more: once the line takes what it has, room comes
+ * without anybody asking. */
+static bool write_samples(struct console *console)
 {
     while (console_has_sample(console) && text_room(console->text) >= CONSOLE_ANSWER_MAX + STREAM_SAMPLE_MAX) {
         line_make_way(&console->line, console->text);
         stream_write(&console->stream, console->executive, console->text);
     }
+    return console_has_sample(console);
 }
 
 static void write_notice(struct console *console, const struct sample *now, const char *key, const char *what)
@@ -245,14 +248,13 @@ static bool has_turn(struct console *console)
 
 bool console_poll(struct console *console)
 {
-    bool is_busy = false;
+    bool is_busy = write_samples(console);
 
-    write_samples(console);
     if (has_room(console)) {
         write_notices(console);
     }
     if (console->task != CONSOLE_TASK_NONE && has_room(console)) {
-        is_busy = console_task_continue(console);
+        is_busy = console_task_continue(console) || is_busy;
     }
     while (console->task == CONSOLE_TASK_NONE && has_room(console) && !executive_has_order(console->executive) &&
            has_turn(console)) {

@@ -12,7 +12,12 @@ static void open_line(struct line *line)
 
 void line_init(struct line *line) { *line = (struct line){.has_echo = true}; }
 
-void line_damage(struct line *line) { line->is_damaged = true; }
+/* A line feed that comes now may end what was lost. */
+void line_damage(struct line *line)
+{
+    line->is_damaged = true;
+    line->was_cr = false;
+}
 
 void line_make_way(struct line *line, struct text *text)
 {

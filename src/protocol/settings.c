@@ -155,6 +155,11 @@ void settings_set(struct console *console)
         refuse_word(console, error == ERROR_OK ? ERROR_USAGE : error, info, bad);
         return;
     }
+    problem = params_check(&params); /* a pace out of all range has no load */
+    if (problem.error != ERROR_OK) {
+        refuse_problem(console, &problem, &params);
+        return;
+    }
     if (!streaming_admits(console, &params)) {
         return;
     }

@@ -131,6 +131,8 @@ static void check_refusals(void)
         {"set m 1 m 2\r", "error usage m: named twice; once is enough"},
         {"set c 1 m 2 mass_kg 3\r", "error usage m: named twice; "},
         {"set tick 1000.5\r", "error out-of-range tick=1000.5: 1 .. 100000 Hz, whole"},
+        {"set tick 1e30\r", "error out-of-range tick=1e30: 1 .. 100000 Hz, whole"},
+        {"set substeps -6\r", "error out-of-range substeps=-6: 1 .. 64, a whole number"},
         {"stream csv every 0\r", "error out-of-range every=0: 1 .. 1000000000, a whole number"},
         {"stream csv x every 1000000000000 force\r", "error out-of-range every=1000000000000: 1 .. "},
         {"set spp 63\r", "error out-of-range spp=63: 16|32|64|128|256|512|1024"},

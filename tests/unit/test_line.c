@@ -107,6 +107,9 @@ static void check_damage(void)
     (void)type("se");
     line_damage(&line);
     tap_check(type("t m 1\r") == LINE_DAMAGED && type("a\r") == LINE_DONE, "lost bytes damage one line");
+    line_damage(&line);
+    tap_check(type("\n") == LINE_DAMAGED && type("b\r") == LINE_DONE,
+              "a line feed after lost bytes ends what they were of, and the next line is whole");
 }
 
 void test_line(void)

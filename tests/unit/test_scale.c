@@ -149,6 +149,9 @@ static void check_refusals(void)
     tap_check(refuses("N0 0 v0 0", NULL, ERROR_NO_SCALE, NULL) && refuses("mu_s 0 v0 0", NULL, ERROR_NO_SCALE, NULL) &&
                   serves("v0 0") && serves("mu_s 0"),
               "neither speed nor friction");
+    tap_check(refuses("N0 1e-35 ke 1e3", NULL, ERROR_NO_SCALE, NULL) &&
+                  refuses("v0 1e-35 mu_s 0", NULL, ERROR_NO_SCALE, NULL) && serves("N0 1e-20 v0 1e-20"),
+              "units too small to divide by");
 }
 
 /* z = 2 pi/spp max(1, Z, C, Cn) <= 0.40: at 16 steps Z2 <= 1.03753, at 64 steps C, Cn <= 4.0744 (c <= 2.23163 N s/m). */

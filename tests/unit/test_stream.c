@@ -220,6 +220,26 @@ static void check_slow_line(void)
     tap_check(field(bench.last, " drops=") == 0u, "nor count one");
 }
 
+/* A line that takes all at once leaves nothing to send, and nobody would come back for the samples behind it. */
+static void check_sudden_room(void)
+{
+    bool is_busy = true;
+
+    bench_open();
+    (void)bench_say("stream csv every 1 force\r");
+    bench_listen_anew();
+    (void)bench_turn("step 500\r", 9u, 0u, &is_busy);
+    for (unsigned i = 0u; i < 500u; i++) {
+        (void)bench_turn("", 0u, 0u, &is_busy);
+    }
+    tap_check(ring_fill(&bench.executive.samples) > 0u, "a reader that has stopped leaves samples behind");
+    is_busy = true;
+    while (is_busy) {
+        (void)bench_turn("", 0u, SIZE_MAX, &is_busy);
+    }
+    tap_check(bench.samples == 500u && bench.oks == 1u, "one that then takes all at once gets them and the answer");
+}
+
 /* Samples that a reset has overtaken are of the set that they were made with. */
 static void check_contact(void)
 {
@@ -275,6 +295,7 @@ void test_stream(void)
     check_sample_bytes();
     check_gap();
     check_slow_line();
+    check_sudden_room();
     check_contact();
     check_change();
 }
