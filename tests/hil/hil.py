@@ -112,7 +112,7 @@ set datafile separator ','
 set border 3 lc rgb '#606060'
 set tics nomirror out
 set grid lc rgb '#ececec' lt 1
-set key at graph 1,1.14 right horizontal maxrows 1 samplen 1.5 width -3
+set key at graph 1,1.14 right horizontal maxrows 1 samplen 1.5 width -1
 set xrange [0:{end_s}]
 set multiplot
 """
