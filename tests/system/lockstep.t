@@ -54,6 +54,7 @@ def lockstep(controller, delay_s=0.0, garbage=0, halfway=None):
     for turn, (count, wanted) in enumerate(TURNS):
         if halfway and turn == len(TURNS) // 2:
             halfway()
+            delay_s = 3e-3  # or a fast plant is there before it can be stopped
         begun = time.monotonic()
         if garbage:
             controller.send(bytes(clock.randrange(256) for _ in range(garbage)) + b"\0")
