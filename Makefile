@@ -52,8 +52,8 @@ ORACLE     := build/tests/oracle
 CAMPAIGN   := build/tests/frames
 MERIT      := build/tests/merit
 BENCH_LINK := build/tests/bench-link
-# A board without a UART of its own has no image that is nothing but one.
-ECHO       := $(if $(BOARD_RUN),$(OUT_BOARD)/echo$(BOARD_SUFFIX))
+# What the link's bench measures by, where the board has a UART of its own: an image that does nothing but answer.
+ECHO       := $(if $(BOARD_ECHO),$(OUT_BOARD)/echo$(BOARD_SUFFIX))
 PICTURES   := build/tests/monitor
 CONVERGE   := build/tests/converge
 FUZZER     := build/fuzz/fuzzer
@@ -72,7 +72,7 @@ OBJECTS_CONVERGE := $(SOURCES_CONVERGE:%.c=build/tools/%.o)
 OBJECTS_BENCH := $(SOURCES_BENCH:%.c=build/tools/%.o)
 OBJECTS_REPLAY := $(patsubst %.c,build/unit/%.o,$(SOURCES) $(wildcard tests/fuzz/*.c))
 OBJECTS_FUZZER := $(patsubst %.c,build/fuzz/%.o,$(SOURCES) $(filter-out tests/fuzz/files.c,$(wildcard tests/fuzz/*.c)))
-OBJECTS_ECHO  := $(patsubst %.c,$(OUT_BOARD)/%.o,$(filter src/base/%,$(SOURCES)) $(SOURCES_BOARD) tests/bench/link/echo.c)
+OBJECTS_ECHO  := $(patsubst %.c,$(OUT_BOARD)/%.o,$(filter src/base/%,$(SOURCES)) $(SOURCES_BOARD) $(BOARD_ECHO))
 OBJECTS       := $(sort $(OBJECTS_IMAGE) $(OBJECTS_UNIT) $(OBJECTS_PROBE) $(OBJECTS_CONTROLLER) $(OBJECTS_HOST) $(OBJECTS_TOOL) \
                         $(OBJECTS_LINE) $(OBJECTS_MERIT) $(OBJECTS_PICTURES) $(OBJECTS_CONVERGE) $(OBJECTS_BENCH) \
                         $(OBJECTS_REPLAY) $(OBJECTS_FUZZER) $(if $(ECHO),$(OBJECTS_ECHO)))

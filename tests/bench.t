@@ -52,6 +52,7 @@ nobody_is_left() {
 }
 
 ok 'it counts on the host' bench 0 'STEP of 10' "$HOST_IMAGE"
+ok 'as the host is asked to' run 0 'STEP of 10' make -s --no-print-directory BOARD=host TURNS=40 bench-link
 ok 'and on the board' run 0 'STEP of 10' make -s --no-print-directory BOARD="$BOARD" TURNS=40 bench-link
 ok 'a firmware that does not start' bench 1 'does not listen' "$work/none"
 ok 'one that ends' bench 1 'does not listen' true

@@ -49,19 +49,20 @@ TURNS = script(1)
 
 
 def lockstep(controller, delay_s=0.0, garbage=0, halfway=None):
-    """Makes all turns. The replies as they were on the line, their states, and the longest turn in seconds."""
+    """Makes all turns. The replies as they were on the line, their states, and the longest turn with its pause in seconds."""
     clock, replies, states, longest_s = random.Random(time.time()), [], [], 0.0
     for turn, (count, wanted) in enumerate(TURNS):
+        begun = time.monotonic()
         if halfway and turn == len(TURNS) // 2:
             halfway()
-        begun = time.monotonic()
+            delay_s = 3e-3  # or a fast plant is there before it can be stopped
         if garbage:
             controller.send(bytes(clock.randrange(256) for _ in range(garbage)) + b"\0")
         states.append(controller.step(count, *wanted))
         replies.append(controller.raw)
-        longest_s = max(longest_s, time.monotonic() - begun)
         if delay_s:
             time.sleep(clock.uniform(0, delay_s))
+        longest_s = max(longest_s, time.monotonic() - begun)
     return replies, states, longest_s
 
 
