@@ -2,6 +2,7 @@
 would make, no second try. Names and numbers are those of the tables that the firmware is made of."""
 import contextlib
 import os
+import struct
 import sys
 import time
 from collections import deque
@@ -197,6 +198,8 @@ class Controller(Raw):
             reply = self._link.ask(squeal.REQUESTS[name], sequence, fields)
         except squeal.Refusal as refusal:
             raise Refused(refusal) from None
+        if name == "READ":
+            reply = (*reply[:2], struct.unpack("<f", reply[2])[0])
         return reply[0] if len(reply) == 1 else reply
 
     def refusal(self, name, *fields, **head):
