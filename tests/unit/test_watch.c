@@ -121,7 +121,9 @@ static void check_return(void)
     run(1u);
     tap_check(load_newton() < newton, "nor stops it");
     newton = load_newton();
-    tap_check(executive_free_run(&executive) == ERROR_OK, "a run does");
+    tap_check(executive_free_run(&executive) == ERROR_OK && executive_has_order(&executive), "a run does, by an order");
+    executive_tick(&executive, false);
+    tap_check(now().watch == WATCH_FRESH, "so that main can wait for it");
     executive_tick(&executive, true);
     tap_check(stands(WATCH_FRESH, newton), "fresh, with the force that is left held");
     executive_stop(&executive);
@@ -145,9 +147,9 @@ static void check_return(void)
 }
 
 /* A demand that main handed over in the very moment in which the plant became safe. */
-static void hand_over_late(float newton)
+static void hand_over_late(float newton, uint64_t step)
 {
-    const struct input_demand wanted = {.load = INPUT_LOAD_FORCE, .load_value = newton};
+    const struct input_demand wanted = {.load = INPUT_LOAD_FORCE, .load_value = newton, .step = step};
     struct input input;
 
     (void)input_derive(&input, &wanted, executive_params(&executive), &executive_plan(&executive)->scale);
@@ -172,12 +174,14 @@ static void check_voided(void)
     tap_check(stands(WATCH_SAFE, 0.0f) && executive.sim.counters.inputs == 1u &&
                   executive.sim.counters.inputs_void + executive.inputs_refused == 3u,
               "what waits when the plant becomes safe is void, and so is what comes then");
-    hand_over_late(7.0f);
+    hand_over_late(7.0f, INPUT_NOW);
     run(1u);
     tap_check(stands(WATCH_SAFE, 0.0f) && executive.sim.counters.inputs == 1u, "even in that moment");
+    hand_over_late(7.0f, 75u);
     (void)start_with(1.0f);
     run(1u);
-    tap_check(stands(WATCH_FRESH, 1.0f) && demand(3.0f, 100u) == ERROR_OK, "only what comes after the start");
+    tap_check(stands(WATCH_FRESH, 1.0f) && executive.inputs_waiting.count == 0u && demand(3.0f, 100u) == ERROR_OK,
+              "only what comes after the start");
     run(6u);
     tap_check(stands(WATCH_STALE, 1.0f), "counts");
     (void)executive_input(&executive, &start, NULL);
