@@ -4,6 +4,7 @@
  *   80 .. 8f             1 to 16 rounds
  *   90 T payload         a request of the T-th type, of its length, as a client would say it next; and a round
  *   91 T S S s s s s n payload   a frame of any type, sequence, step and length; and a round
+ *   92 n patches         the run is fetched, gets up to 3 patches of a byte or a word each, a right CRC, and is put back
  *   a0 .. af bytes       1 to 16 bytes as they are to the link
  *   b0 .. bf bytes       1 to 16 bytes as they are to the console
  *   c0 .. c7, c8 .. cf   1 to 8 bytes are lost on the console, on the link
@@ -17,7 +18,10 @@
  * and all must come to rest. */
 #include "input.h"
 
+#include <string.h>
+
 #include "base/bytes.h"
+#include "base/crc32.h"
 #include "board.h"
 #include "firmware.h"
 #include "watch.h"
@@ -30,6 +34,9 @@ enum {
     STOP_EVERY = 32,
     STEP_MAX = 1024,
     STEP_OBEYED_MAX = 1000000,
+    PATCHES_MAX = 3,
+    PATCH_BYTES = 128,
+    WORD_SIZE = 4,
     SMALL = 16
 };
 
@@ -56,7 +63,8 @@ static void go_round(void)
 /* A study or a self-test makes many steps in every round. */
 static void spend_round(void)
 {
-    const bool is_long = study_is_under_way(firmware.console) || firmware.console->task == CONSOLE_TASK_SELFTEST;
+    const bool is_long = firmware.turn->studies != TURN_NOBODY || firmware.console->task == CONSOLE_TASK_SELFTEST ||
+                         (firmware.link->has_request && firmware.link->request.type == LINK_SELFTEST);
     const uint32_t price = is_long ? LONG_ROUND : 1u;
 
     if (rounds_left < price) {
@@ -89,7 +97,7 @@ static void take_bytes(uint8_t *bytes, size_t size)
 
 static void put_word(uint8_t *bytes, uint32_t word)
 {
-    struct bytes_writer writer = {.bytes = bytes, .capacity = 4u};
+    struct bytes_writer writer = {.bytes = bytes, .capacity = WORD_SIZE};
 
     bytes_put_u32(&writer, word);
 }
@@ -133,6 +141,45 @@ static void say_any_frame(void)
         shorten_step(payload);
     }
     say_frame(&frame);
+}
+
+/* An image as the controller has it by now, with other bytes in some places. */
+static void patch_image(uint8_t image[SNAPSHOT_SIZE])
+{
+    const uint8_t how = bytes_get_u8(&input);
+
+    for (unsigned i = 0u; i < how % (PATCHES_MAX + 1u); i++) {
+        const size_t at = bytes_get_u16(&input) % (SNAPSHOT_SIZE - 2u * WORD_SIZE);
+
+        take_bytes(image + at, how < PATCH_BYTES ? WORD_SIZE : 1u);
+    }
+    put_word(image + SNAPSHOT_SIZE - WORD_SIZE, crc32_add(0u, image, SNAPSHOT_SIZE - WORD_SIZE));
+}
+
+static void say_restore(const uint8_t *image, uint16_t offset)
+{
+    const size_t left = (size_t)SNAPSHOT_SIZE - offset;
+    uint8_t payload[4 + LINK_PIECE] = {0};
+    struct bytes_writer writer = {.bytes = payload, .capacity = sizeof payload};
+
+    bytes_put_u16(&writer, offset);
+    bytes_put_u16(&writer, SNAPSHOT_SIZE);
+    bytes_put_block(&writer, image + offset, left < LINK_PIECE ? left : LINK_PIECE);
+    say_frame(&(struct frame){.type = LINK_RESTORE, .payload = payload, .size = sizeof payload});
+}
+
+/* Its pieces are fetched by the harness, not over the line: only the first request makes them. */
+static void say_run(void)
+{
+    static const uint8_t first[2] = {0u, 0u};
+    uint8_t image[SNAPSHOT_SIZE];
+
+    say_frame(&(struct frame){.type = LINK_SNAPSHOT, .payload = first, .size = sizeof first});
+    memcpy(image, firmware.executive->image, sizeof image);
+    patch_image(image);
+    for (uint16_t offset = 0u; offset < SNAPSHOT_SIZE; offset = (uint16_t)(offset + LINK_PIECE)) {
+        say_restore(image, offset);
+    }
 }
 
 static void say_bytes(enum hal_uart port, size_t size)
@@ -186,7 +233,9 @@ static void do_next(void)
         }
         break;
     case 0x9:
-        if ((low & 1u) == 0u) {
+        if (low == 2u) {
+            say_run();
+        } else if ((low & 1u) == 0u) {
             say_request();
         } else {
             say_any_frame();

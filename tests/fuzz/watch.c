@@ -68,8 +68,8 @@ static void gather_of_run(uint32_t counters[COUNTERS_OF_RUN])
         executive->load.ticks,
         executive->load.overruns,
         executive->load.shed,
-        executive->inputs_taken,
-        executive->inputs_late,
+        sim->inputs,
+        sim->inputs_late,
     };
 
     memcpy(counters, now, sizeof now);
@@ -155,6 +155,7 @@ void watch_sleep(void)
     WATCH(!executive_has_order(firmware.executive) && !executive_wants_tick(firmware.executive));
     WATCH(firmware.console->task == CONSOLE_TASK_NONE && firmware.console->waiting_size == 0u);
     WATCH(!firmware.link->has_request && firmware.turn->holder == TURN_NOBODY);
+    WATCH(firmware.turn->studies == TURN_NOBODY);
     WATCH(firmware.console_text->head == firmware.console_text->tail);
     WATCH(firmware.link_text->head == firmware.link_text->tail);
     WATCH(firmware.turn->streams == TURN_NOBODY || ring_fill(&firmware.executive->samples) == 0u);
