@@ -35,7 +35,8 @@ SOURCES_BENCH := $(filter src/base/% src/model/%,$(SOURCES)) src/protocol/frame.
                  $(filter-out %/echo.c,$(wildcard tests/bench/link/*.c))
 SOURCES_PICTURES := $(wildcard tests/monitor/*.c) tools/squeal/plot/spectrum.c $(addprefix tools/squeal/monitor/,canvas.c keys.c \
                     letters.c lines.c panels.c panels_overlay.c panels_plots.c panels_words.c picture.c screen.c trace.c)
-SOURCES_CONVERGE := $(filter-out src/protocol/%,$(SOURCES)) $(filter-out tests/oracle/main.c,$(wildcard tests/oracle/*.c)) $(wildcard tests/converge/*.c) tools/squeal/support/broken.c
+SOURCES_CONVERGE := $(filter-out src/protocol/%,$(SOURCES)) $(filter-out tests/oracle/main.c,$(wildcard tests/oracle/*.c)) \
+                    $(wildcard tests/converge/*.c) tools/squeal/support/broken.c
 # The controller of tests/hil: all but its main is tested with the rest.
 SOURCES_LAW   := $(filter-out %/main.c,$(wildcard tests/hil/controller/*.c))
 UNIT_TESTS    := $(filter-out tests/unit/platform_host.c,$(wildcard tests/unit/*.c))
@@ -138,12 +139,12 @@ $(IMAGE) $(UNIT_IMAGE) $(PROBE) $(CONTROLLER) $(ECHO): $(wildcard linker/*.ld)
 	$(Q)$(BOARD_CC) $(CFLAGS_BOARD) $(BOARD_LDFLAGS) $(filter %.o,$^) -o $@ $(BOARD_LIBS)
 
 $(UNIT_HOST): $(OBJECTS_HOST)
-	$(call say,LD,$@)
-	$(Q)$(CC) $(SANITIZE) $^ -o $@
-
 $(REPLAY): $(OBJECTS_REPLAY)
+$(PICTURES): $(OBJECTS_PICTURES)
+$(UNIT_HOST) $(REPLAY) $(PICTURES):
 	$(call say,LD,$@)
-	$(Q)$(CC) $(SANITIZE) $^ -o $@
+	$(Q)mkdir -p $(@D)
+	$(Q)$(CC) $(SANITIZE) $^ -o $@ -lm
 
 $(FUZZER): $(OBJECTS_FUZZER)
 	$(call say,LD,$@)
@@ -154,7 +155,13 @@ build/fuzz/dictionary: tests/fuzz/dictionary $(wildcard src/*/*.def)
 	$(Q)tests/fuzz/dictionary >$@
 
 $(TOOL): $(OBJECTS_TOOL) | $(BOARDS_LIST)
+$(CAMPAIGN): $(OBJECTS_LINE)
+$(MERIT): $(OBJECTS_MERIT)
+$(BENCH_LINK): $(OBJECTS_BENCH)
+$(CONVERGE): $(OBJECTS_CONVERGE)
+$(TOOL) $(CAMPAIGN) $(MERIT) $(BENCH_LINK) $(CONVERGE):
 	$(call say,LD,$@)
+	$(Q)mkdir -p $(@D)
 	$(Q)$(CC) $^ -o $@ -lm
 
 # How the tool starts each board: written anew each time, changed only when it differs.
@@ -165,31 +172,6 @@ $(BOARDS_LIST): boards-list
 	$(Q)if cmp -s $@ $@.new; then rm $@.new; else mv $@.new $@; fi
 .PHONY: boards-list
 boards-list:
-
-$(CAMPAIGN): $(OBJECTS_LINE)
-	$(call say,LD,$@)
-	$(Q)mkdir -p $(@D)
-	$(Q)$(CC) $^ -o $@ -lm
-
-$(MERIT): $(OBJECTS_MERIT)
-	$(call say,LD,$@)
-	$(Q)mkdir -p $(@D)
-	$(Q)$(CC) $^ -o $@ -lm
-
-$(BENCH_LINK): $(OBJECTS_BENCH)
-	$(call say,LD,$@)
-	$(Q)mkdir -p $(@D)
-	$(Q)$(CC) $^ -o $@
-
-$(PICTURES): $(OBJECTS_PICTURES)
-	$(call say,LD,$@)
-	$(Q)mkdir -p $(@D)
-	$(Q)$(CC) $(SANITIZE) $^ -o $@ -lm
-
-$(CONVERGE): $(OBJECTS_CONVERGE)
-	$(call say,LD,$@)
-	$(Q)mkdir -p $(@D)
-	$(Q)$(CC) $^ -o $@ -lm
 
 $(ORACLE): $(wildcard tests/oracle/*.[ch] tests/oracle/*.def) Makefile | setup
 	$(call say,CC,$@)
