@@ -31,6 +31,7 @@ static bool ask(struct master *master, struct text *out, const struct frame *req
         memcpy(master->payload, request->payload, request->size);
     }
     master->request.payload = master->payload;
+    master->repeats = 0u;
     send(master, out);
     return true;
 }
@@ -70,6 +71,7 @@ bool master_ask_again(struct master *master, struct text *out)
     if (!master->is_waiting || !has_room(out)) {
         return false;
     }
+    master->repeats++;
     send(master, out);
     return true;
 }
@@ -86,6 +88,24 @@ static enum master_event close_request(struct master *master, const struct frame
     return event;
 }
 
+/* A refused STEP and the next one have the same sequence, so a second refusal of the first could pass for one of the next.
+ * Byte for byte the same, it is taken for such an echo; if that is wrong, the request is asked again and refused again. */
+static bool is_echo(struct master *master, const struct frame *frame)
+{
+    if (master->echoes == 0u || memcmp(frame->payload, master->refusal, LINK_ERROR_SIZE) != 0) {
+        return false;
+    }
+    master->echoes--;
+    return true;
+}
+
+static enum master_event refuse(struct master *master, const struct frame *frame)
+{
+    master->echoes = master->repeats;
+    memcpy(master->refusal, frame->payload, LINK_ERROR_SIZE);
+    return close_request(master, frame, MASTER_REFUSED);
+}
+
 static enum master_event sort(struct master *master, const struct frame *frame)
 {
     const struct frame *request = &master->request;
@@ -97,8 +117,9 @@ static enum master_event sort(struct master *master, const struct frame *frame)
         if (frame->type == request->type + LINK_REPLY) {
             return close_request(master, frame, MASTER_ANSWERED);
         }
-        if (frame->type == LINK_ERROR && frame->size == LINK_ERROR_SIZE && frame->payload[0] == request->type) {
-            return close_request(master, frame, MASTER_REFUSED);
+        if (frame->type == LINK_ERROR && frame->size == LINK_ERROR_SIZE && frame->payload[0] == request->type &&
+            !is_echo(master, frame)) {
+            return refuse(master, frame);
         }
     }
     master->strays++;

@@ -41,6 +41,9 @@ struct master {
     uint16_t step_sequence; /* of the last STEP that was answered, or of the one that waits */
     uint32_t step;          /* low word of the plant's step counter in the last reply */
     uint32_t strays;
+    uint32_t repeats; /* of the request that waits */
+    uint32_t echoes;  /* refusals of the last refused request that may yet come, for it was asked again so often */
+    uint8_t refusal[LINK_ERROR_SIZE];
 };
 
 /* Nothing asked, nothing received. [INIT] */

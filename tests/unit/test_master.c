@@ -129,6 +129,24 @@ static void check_steps(void)
     tap_check(heard.payload[4] == INPUT_LOAD_KEEP + LINK_STARTS, "an explicit start is said with the kind of load");
 }
 
+/* Refused, but asked twice for want of an answer: the second refusal comes when the next STEP already waits. */
+static void check_echo(void)
+{
+    const struct input_demand demand = {.load = INPUT_LOAD_KEEP};
+    static const uint8_t error[LINK_ERROR_SIZE] = {LINK_STEP, ERROR_BUSY};
+    unsigned zeros;
+
+    open();
+    (void)master_step(&master, &sent, 10u, &demand);
+    (void)master_ask_again(&master, &sent);
+    (void)hear(&zeros);
+    tap_check(tell(LINK_ERROR, 1u, 0u, error, sizeof error) == MASTER_REFUSED, "a STEP asked twice is refused");
+    (void)master_step(&master, &sent, 10u, &demand);
+    tap_check(tell(LINK_ERROR, 1u, 0u, error, sizeof error) == MASTER_STRAY && master.is_waiting,
+              "its second refusal is no answer to the next STEP");
+    tap_check(tell(LINK_ERROR, 1u, 0u, error, sizeof error) == MASTER_REFUSED, "a third one is");
+}
+
 static void check_room(void)
 {
     struct text narrow;
@@ -170,6 +188,7 @@ void test_master(void)
     check_asking();
     check_sorting();
     check_steps();
+    check_echo();
     check_room();
     check_state();
 }
