@@ -308,6 +308,7 @@ static void check_rest(void)
     REFUSES(watch.ramp = WATCH_ALL + 1u);
     REFUSES(measure.done = 1u);
     REFUSES(measure.planned = UINT64_MAX);
+    memset(&waiting, 0, sizeof waiting); /* nothing else to blame */
     waiting.count = INPUT_QUEUE_MAX + 1u;
     ok = is_refused() && ok;
     waiting.waiting[1].load = 2.0f;
