@@ -4,6 +4,7 @@
 
 #include "base/bytes.h"
 #include "base/crc32.h"
+#include "base/fmath.h"
 #include "base/mem.h"
 #include "plants.h"
 #include "tap.h"
@@ -205,6 +206,172 @@ static void check_refusals(void)
     tap_check(put_back(&other) == ERROR_OK && other.sim.hash == one.sim.hash, "as it was it is fine");
 }
 
+/* A good run with one thing wrong, each of which might do harm: an index, a divisor, a number that does not fit. */
+static struct sim forged;
+static struct input_queue waiting;
+static struct sim_plan forged_plan;
+
+static void make_forged(float arith, const char *assignments)
+{
+    open_brake(&one, arith, assignments);
+    demand(&one, 2500.0f, 7000u);
+    demand(&one, 2400.0f, 8000u);
+    run(&one, 3000u);
+    forged = one.sim;
+    waiting = one.inputs_waiting;
+    forged_plan = one.in_force.plan;
+    forged.plan = &forged_plan;
+}
+
+static bool is_refused(void)
+{
+    bool ok;
+
+    snapshot_take(image, &forged, &waiting);
+    ok = put_back(&other) == ERROR_OUT_OF_RANGE;
+    forged = one.sim;
+    waiting = one.inputs_waiting;
+    forged_plan = one.in_force.plan;
+    forged.plan = &forged_plan;
+    return ok;
+}
+
+#define REFUSES(wrong)                  \
+    do {                                \
+        forged.wrong;                   \
+        if (!is_refused()) {            \
+            tap_note("forged." #wrong); \
+            ok = false;                 \
+        }                               \
+    } while (0)
+
+static void check_plants(void)
+{
+    const float no_number = fmath_from_bits(0x7fc00000u);
+    bool ok = true;
+
+    make_forged((float)ARITH_F32, "");
+    tap_check(!is_refused() && other.sim.hash == one.sim.hash,
+              "what is right is taken");
+    REFUSES(f32.x = 1e9f);
+    REFUSES(f32.v = no_number);
+    REFUSES(f32.x_rest = 2.0f);
+    REFUSES(f32.normal.y_rest = -2.0f);
+    REFUSES(f32.normal.w_rest = 2.0f);
+    REFUSES(f32.disc = 2.0f);
+    REFUSES(f32.mode = 2);
+    REFUSES(f32.normal.n = -3.0f);
+    REFUSES(f32.normal.cosine = 1e6f);
+    REFUSES(f32.normal.sine = -1e6f);
+    REFUSES(f32.normal.least_force = 1.0f);
+    make_forged((float)ARITH_Q27, "normal exact cn 0");
+    REFUSES(q27.is_saturated = true);
+    REFUSES(q27.x = INT32_MIN);
+    REFUSES(q27.v = 11 << 27);
+    REFUSES(q27.disc = 2 << 27);
+    REFUSES(q27.mode = -2);
+    REFUSES(q27.normal.y = INT32_MIN);
+    REFUSES(q27.normal.w = INT32_MIN);
+    REFUSES(q27.normal.n = 3 << 27);
+    REFUSES(q27.normal.least_force = 1);
+    REFUSES(q27.normal.reach = -1);
+    REFUSES(q27.normal.reach = 1 << 10);
+    REFUSES(q27.normal.y = 3 << 27);
+    REFUSES(q27.normal.is_lifted = true);
+    REFUSES(q27.normal.phase.index = 256u);
+    REFUSES(q27.normal.phase.minus_cosine += 1);
+    REFUSES(q27.normal.phase.sine = 7 << 28);
+    make_forged((float)ARITH_Q27, "contact lift");
+    REFUSES(q27.normal.reach = 1 << 29);
+    tap_check(ok, "no plant that is outside, or would leave its tables or its bounds");
+}
+
+static void check_rest(void)
+{
+    bool ok = true;
+
+    make_forged((float)ARITH_F32, "");
+    REFUSES(step = UINT64_C(1) << 60);
+    REFUSES(v10_step = UINT64_C(1) << 60);
+    REFUSES(v10_fraction_q15 = 1u << 20);
+    REFUSES(output.mode = 2);
+    REFUSES(angle.rest = 1u << 31);
+    REFUSES(texture = 1 << 30);
+    REFUSES(input.load = 2.0f);
+    REFUSES(input.speed = -2.0f);
+    REFUSES(input.load_q27 = 2 << 27);
+    REFUSES(input.speed_q27 = -(2 << 27));
+    REFUSES(safe_load = 2.0f);
+    REFUSES(safe_load_q27 = 2 << 27);
+    REFUSES(watch.state = WATCH_SAFE + 1);
+    REFUSES(watch.silence = WATCH_SILENCE_MAX + 1u);
+    REFUSES(watch.ramp = WATCH_ALL + 1u);
+    REFUSES(measure.done = 1u);
+    REFUSES(measure.planned = UINT64_MAX);
+    memset(&waiting, 0, sizeof waiting); /* nothing else to blame */
+    waiting.count = INPUT_QUEUE_MAX + 1u;
+    ok = is_refused() && ok;
+    waiting.waiting[1].load = 2.0f;
+    ok = is_refused() && ok;
+    waiting.waiting[1].step = 1u;
+    ok = is_refused() && ok;
+    forged_plan.scale.load_n = 0.0f;
+    ok = is_refused() && ok;
+    forged_plan.scale.speed_m_per_s = -1.0f;
+    ok = is_refused() && ok;
+    tap_check(ok, "nothing held, measured or waiting that cannot be");
+}
+
+static void check_detectors(void)
+{
+    bool ok = true;
+
+    make_forged((float)ARITH_F32, "");
+    REFUSES(detector.phase = 64u);
+    REFUSES(detector.periods = DETECTOR_FRAME_PERIODS);
+    REFUSES(detector.v_sum = INT64_C(1) << 40);
+    REFUSES(detector.v_sum = -(INT64_C(1) << 40));
+    REFUSES(detector.evidence = 17u);
+    REFUSES(detector.hysteresis = -1);
+    REFUSES(detector.level = INT32_MIN);
+    REFUSES(detector.step = UINT64_MAX);
+    REFUSES(detector.has_diverged = true);
+    REFUSES(detector.search.stage = 5u);
+    REFUSES(detector.search.period = 18u);
+    REFUSES(detector.search.index = 64u);
+    REFUSES(detector.now.change_log2_q16 = INT32_MAX);
+    REFUSES(detector.frames[3].change_log2_q16 = INT32_MIN);
+    REFUSES(detector.frames[0].acceleration = -1);
+    REFUSES(detector.verdict.propensity = PROPENSITY_SQUEAL + 1);
+    REFUSES(detector.verdict.motion = CLASS_DIVERGING + 1);
+    REFUSES(detector.verdict.period = 18u);
+    REFUSES(detector.verdict.growth_q16 = INT32_MIN);
+    REFUSES(detector.verdict.growth_error_q16 = INT32_MIN);
+    REFUSES(detector.verdict.free_log2_q16 = INT32_MAX);
+    REFUSES(detector.verdict.acceleration = -1);
+    forged.detector.frame = 0u;
+    forged.detector.search.stage = 2u;
+    ok = is_refused() && ok;
+    tap_check(ok, "no detector that would divide by nothing or search for ever");
+}
+
+/* A truth value is 0 or 1. */
+static void check_flags(void)
+{
+    static uint8_t with[SNAPSHOT_SIZE];
+    size_t at = 0u;
+
+    make_forged((float)ARITH_F32, "");
+    forged.has_v10 = true;
+    snapshot_take(with, &forged, &waiting);
+    forged.has_v10 = false;
+    snapshot_take(image, &forged, &waiting);
+    while (at < SNAPSHOT_SIZE && with[at] == image[at]) {
+        at++;
+    }
+    tap_check(with_byte(at, 1u) == ERROR_OK && with_byte(at, 2u) == ERROR_OUT_OF_RANGE, "a flag is 0 or 1");
+}
+
 /* Whoever can compute a CRC can send anything: it is refused, or it runs. The sanitizers look on. */
 static void check_forged(float arith, const char *assignments)
 {
@@ -244,6 +411,10 @@ void test_snapshot(void)
     check_standing();
     check_room();
     check_refusals();
+    check_plants();
+    check_rest();
+    check_detectors();
+    check_flags();
     check_forged((float)ARITH_F32, "");
     check_forged((float)ARITH_Q27, "");
     check_forged((float)ARITH_Q27, "normal exact");
