@@ -27,9 +27,9 @@
 #include "watch.h"
 
 enum {
-    ROUNDS_MAX = 48,
+    ROUNDS_MAX = 24,
     STEPS_MAX = 640,
-    LONG_ROUND = 12,
+    LONG_ROUND = 8,
     ROUNDS_TO_REST = 4096,
     STOP_EVERY = 32,
     STEP_MAX = 1024,
