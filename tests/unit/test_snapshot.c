@@ -251,8 +251,7 @@ static void check_plants(void)
     bool ok = true;
 
     make_forged((float)ARITH_F32, "");
-    tap_check(!is_refused() && other.sim.hash == one.sim.hash,
-              "what is right is taken");
+    tap_check(!is_refused() && other.sim.hash == one.sim.hash, "what is right is taken");
     REFUSES(f32.x = 1e9f);
     REFUSES(f32.v = no_number);
     REFUSES(f32.x_rest = 2.0f);
