@@ -27,7 +27,7 @@ echo "$corpus" | paste -sd, - >"$work/inputs"
 ok 'the corpus, by the ordinary compiler' timeout 60 "${REPLAY:?run by make test}" $corpus
 # No corpus folder, so that the order of its files does not matter, and nothing is written.
 million() {
-    timeout 900 "$fuzzer" $FUZZ_OPTIONS -dict=build/fuzz/dictionary -seed=1 -runs=$RUNS -seed_inputs="@$work/inputs" \
+    timeout 2400 "$fuzzer" $FUZZ_OPTIONS -dict=build/fuzz/dictionary -seed=1 -runs=$RUNS -seed_inputs="@$work/inputs" \
         -artifact_prefix=build/fuzz/ && grep -q "^Done $RUNS runs" "$work/out"
 }
 ok "$RUNS inputs break nothing" million
