@@ -25,6 +25,7 @@ struct study {
     const char *path;
     struct progress progress;
     size_t came;
+    bool is_awaited; /* progress has begun */
     bool has_ended;
     struct device_tally tally;
 };
@@ -61,16 +62,20 @@ static void on_end(void *context, const struct device_tally *tally)
     study->tally = *tally;
 }
 
+/* The first results may come in one piece with the reply, before anybody waits for them. */
 static void on_progress(struct study *study)
 {
     study->came++;
-    progress_show(&study->progress, study->came);
+    if (study->is_awaited) {
+        progress_show(&study->progress, study->came);
+    }
 }
 
 /* Waits for the end and says how it was. The first Ctrl-C ends the study in words. */
 static int await(struct study *study, const char *what, uint32_t results)
 {
     progress_start(&study->progress, results > 0 ? results : 1, what);
+    study->is_awaited = true;
     children_hold_interrupt(true);
     const enum device_result result = device_await_study(study->device, children_is_interrupted);
     children_hold_interrupt(false);
