@@ -34,6 +34,7 @@ enum {
     STOP_EVERY = 32,
     STEP_MAX = 1024,
     STEP_OBEYED_MAX = 1000000,
+    ROUNDS_OF_PIECE = 8,
     PATCHES_MAX = 3,
     PATCH_BYTES = 128,
     WORD_SIZE = 4,
@@ -77,7 +78,7 @@ static void spend_round(void)
 
 /* --- What is said ------------------------------------------------------------------------------------------------- */
 
-static void say_frame(const struct frame *frame)
+static void send_frame(const struct frame *frame)
 {
     static uint8_t storage[512];
     struct text wire;
@@ -85,6 +86,11 @@ static void say_frame(const struct frame *frame)
     text_init(&wire, storage, sizeof storage);
     (void)frame_write(&wire, frame);
     board_receive(HAL_UART_LINK, storage, wire.head);
+}
+
+static void say_frame(const struct frame *frame)
+{
+    send_frame(frame);
     spend_round();
 }
 
@@ -165,15 +171,23 @@ static void say_restore(const uint8_t *image, uint16_t offset)
     bytes_put_u16(&writer, offset);
     bytes_put_u16(&writer, SNAPSHOT_SIZE);
     bytes_put_block(&writer, image + offset, left < LINK_PIECE ? left : LINK_PIECE);
-    say_frame(&(struct frame){.type = LINK_RESTORE, .payload = payload, .size = sizeof payload});
+    send_frame(&(struct frame){.type = LINK_RESTORE, .payload = payload, .size = sizeof payload});
+    for (unsigned i = 0u; i < ROUNDS_OF_PIECE && board_has_input(); i++) {
+        go_round();
+    }
 }
 
-/* Its pieces are fetched by the harness, not over the line: only the first request makes them. */
+/* Its pieces are fetched by the harness, not over the line: only the first request makes them. The rounds that they take on
+ * their way back are given on top, for the price of a long one. */
 static void say_run(void)
 {
     static const uint8_t first[2] = {0u, 0u};
     uint8_t image[SNAPSHOT_SIZE];
 
+    if (rounds_left < LONG_ROUND) {
+        return;
+    }
+    rounds_left -= LONG_ROUND;
     say_frame(&(struct frame){.type = LINK_SNAPSHOT, .payload = first, .size = sizeof first});
     memcpy(image, firmware.executive->image, sizeof image);
     patch_image(image);

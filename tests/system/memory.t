@@ -1,33 +1,45 @@
 #!/usr/bin/env python3
 """Whatever comes in, nothing is written where no object lies: memory around the image holds a pattern, console and link are
 flooded with the fuzzer's corpus and random bytes, and the emulator tells what memory holds afterwards."""
+import contextlib
 import glob
 import json
 import os
 import random
-import select
 import shutil
 import socket
 import subprocess
 import sys
 import tempfile
+import threading
 import time
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from controller import TYPES, Controller, Silence, wire  # noqa: E402
+from controller import TYPES, unwire, wire  # noqa: E402
 from firmware import COMMANDS, Firmware, Tap  # noqa: E402
 
 WHERE = "mps2-an386"
 RAM, RAM_END, FLASH_END = 0x20000000, 0x20400000, 0x400000
 PSRAM, PSRAM_END = 0x21000000, 0x22000000
 STACK_SPARE = 1024  # bytes that the deepest call leaves, and that are 0 since power on
-FLOOD_S, RANDOM_BYTES = 4.0, 20000
+FLOOD_S, RANDOM_BYTES, HEARD_MAX = 4.0, 20000, 4096
 tap = Tap()
 folder = tempfile.mkdtemp(prefix="squeal-memory-")
 
 
 def path(name):
     return os.path.join(folder, name)
+
+
+def connected(where):
+    """A socket to where somebody is about to listen."""
+    until = time.monotonic() + 20
+    while not os.path.exists(where) and time.monotonic() < until:
+        time.sleep(0.02)
+    peer = socket.socket(socket.AF_UNIX, socket.SOCK_STREAM)
+    peer.settimeout(20)
+    peer.connect(where)
+    return peer
 
 
 def sections(image):
@@ -42,13 +54,7 @@ class Monitor:
     """QEMU's QMP: one command, one answer."""
 
     def __init__(self, where):
-        until = time.monotonic() + 20
-        while not os.path.exists(where) and time.monotonic() < until:
-            time.sleep(0.02)
-        self.socket = socket.socket(socket.AF_UNIX, socket.SOCK_STREAM)
-        self.socket.settimeout(20)
-        self.socket.connect(where)
-        self.stream = self.socket.makefile("rw")
+        self.stream = connected(where).makefile("rw")
         self.stream.readline()
         self.ask("qmp_capabilities")
 
@@ -68,11 +74,30 @@ class Monitor:
             return saved.read()
 
 
+class Link:
+    """The link's other end: says anything, and hears everything meanwhile, so that the link never waits for it."""
+
+    def __init__(self, where):
+        self.socket, self.heard = connected(where), b""
+        self.socket.settimeout(60)
+        threading.Thread(target=self._hear, daemon=True).start()
+
+    def _hear(self):
+        with contextlib.suppress(OSError):
+            while chunk := self.socket.recv(65536):
+                self.heard = (self.heard + chunk)[-HEARD_MAX:]
+
+    def send(self, data):
+        self.socket.sendall(data)
+
+    def frames(self):
+        """Those heard last, and what is no frame as None."""
+        return map(unwire, self.heard.split(b"\0"))
+
+
 def poke(where, address, byte):
     """One byte by the debugger's port."""
-    peer = socket.socket(socket.AF_UNIX, socket.SOCK_STREAM)
-    peer.settimeout(20)
-    peer.connect(where)
+    peer = connected(where)
     text = f"M{address:x},1:{byte:02x}"
     peer.sendall(f"+${text}#{sum(text.encode()) & 0xff:02x}".encode())
     heard = b""
@@ -96,43 +121,32 @@ def inputs():
             yield console.read(), link.read()
 
 
-def hear(controller):
-    """Takes what the link says, so that it goes on."""
-    while select.select([controller.socket], [], [], 0)[0] and controller.socket.recv(65536):
-        pass
-
-
-def flood(firmware, controller):
+def flood(firmware, link):
     """Each input from a fresh set; beyond its time the rest is left out. Inputs, and bytes on either line."""
     until, said = time.monotonic() + FLOOD_S, [0, 0, 0]
-    for console, link in inputs():
+    for typed, framed in inputs():
         if time.monotonic() > until:
             break
-        firmware.send(b"\rdefaults\r" + console)
-        controller.send(b"\0" + wire(TYPES["RESET"], 0, 0) + link)
+        firmware.send(b"\rdefaults\r" + typed)
+        link.send(b"\0" + wire(TYPES["RESET"], 0, 0) + framed)
         firmware.flush()
-        hear(controller)
-        said = [said[0] + 1, said[1] + len(console), said[2] + len(link)]
+        said = [said[0] + 1, said[1] + len(typed), said[2] + len(framed)]
     noise = random.Random(2).randbytes(RANDOM_BYTES)
     for at in range(0, RANDOM_BYTES, 500):
         firmware.send(noise[at:at + 500])
-        controller.send(noise[-at - 500:][:500])
+        link.send(noise[-at - 500:][:500])
         firmware.flush()
-        hear(controller)
     return said
 
 
-def link_answers(controller):
-    """After whatever it was told; what is left of a frame that was not heard whole comes first."""
-    until = time.monotonic() + 30
-    controller.send(b"\0" + wire(TYPES["STOP"], 0, 0) + wire(TYPES["PING"], 4711, 0, b"squealed"))
+def link_answers(link):
+    """After whatever it was told."""
+    until, wanted = time.monotonic() + 30, (TYPES["PING"] | 0x80, 4711, b"squealed")
+    link.send(b"\0" + wire(TYPES["STOP"], 0, 0) + wire(TYPES["PING"], 4711, 0, b"squealed"))
     while time.monotonic() < until:
-        try:
-            kind, sequence, _, payload = controller.any_frame()
-        except Silence:
-            continue
-        if (kind, sequence) == (TYPES["PING"] | 0x80, 4711):
-            return payload == b"squealed"
+        if wanted in ((frame[0], frame[1], frame[3]) for frame in link.frames() if frame):
+            return True
+        time.sleep(0.05)
     return False
 
 
@@ -156,12 +170,12 @@ for name, (start, content) in regions.items():
     options += ["-device", f"loader,file={path(name)},addr={start:#x},force-raw=on"]
 
 with Firmware(WHERE, extra=options, link=path("link")) as firmware:
-    monitor, controller = Monitor(path("qmp")), Controller(path("link"))
+    monitor, link = Monitor(path("qmp")), Link(path("link"))
     for name, (start, end) in (("code", (0, FLASH_END)), ("emergency stack", taken[".emergency"])):
         regions[name] = (start, monitor.memory(start, end))
-    count, typed, framed = flood(firmware, controller)
+    count, typed, framed = flood(firmware, link)
     tap.note(f"{count} inputs, {typed} bytes on the console and {framed} on the link, then {RANDOM_BYTES} random ones on each")
-    tap.check(count > 0 and link_answers(controller) and console_answers(firmware), "flooded, both lines answer")
+    tap.check(count > 0 and link_answers(link) and console_answers(firmware), "flooded, both lines answer")
     monitor.ask("stop")
     stack = monitor.memory(*taken[".stack"])
     spare = len(stack) - len(stack.lstrip(b"\0"))
@@ -176,7 +190,6 @@ with Firmware(WHERE, extra=options, link=path("link")) as firmware:
     wrong = spoiled(monitor.memory(start, start + len(content)), content, start)
     tap.check(wrong == [hex(address)], "one byte that is written there is seen", *wrong)
     peer.close()
-    controller.close()
 
 shutil.rmtree(folder)
 tap.finish()
