@@ -105,13 +105,15 @@ build/unit/tools/%.o: CFLAGS_EXTRA := -Itools -D_XOPEN_SOURCE=700
 build/unit/tests/monitor/%.o: CFLAGS_EXTRA := -I. -Itools -D_XOPEN_SOURCE=700
 build/unit/tests/fuzz/%.o: CFLAGS_EXTRA := -Ihal
 
-# The fuzzer is led by what the firmware does, not by the harness around it. Comparisons are left out of that: they take as
-# long as all the rest, and a dictionary has the words.
+# The fuzzer is led by what the firmware does, and the firmware alone is watched by the sanitizers: the harness around it is
+# by those of $(REPLAY). Comparisons are left out of what leads: they take as long as all the rest, and a dictionary has the
+# words.
 build/fuzz/%.o: %.c
 	$(call say,CC,$@)
 	$(Q)mkdir -p $(@D)
-	$(Q)clang $(CFLAGS_HOSTED) -Ihal $(SANITIZE) -fsanitize=float-cast-overflow $(LEADING) -c $< -o $@
-build/fuzz/src/%.o build/fuzz/tests/fuzz/firmware.o: LEADING := -fsanitize=fuzzer-no-link -fno-sanitize-coverage=trace-cmp
+	$(Q)clang $(CFLAGS_HOSTED) -Ihal $(FUZZED) -c $< -o $@
+build/fuzz/src/%.o build/fuzz/tests/fuzz/firmware.o: FUZZED := $(SANITIZE) -fsanitize=float-cast-overflow \
+    -fsanitize=fuzzer-no-link -fno-sanitize-coverage=trace-cmp
 $(OBJECTS_FUZZER): | setup-clang
 
 build/tools/%.o: %.c

@@ -27,13 +27,14 @@
 #include "watch.h"
 
 enum {
-    ROUNDS_MAX = 24,
+    ROUNDS_MAX = 32,
     STEPS_MAX = 640,
-    LONG_ROUND = 8,
+    LONG_ROUND = 24,
     ROUNDS_TO_REST = 4096,
     STOP_EVERY = 32,
     STEP_MAX = 1024,
     STEP_OBEYED_MAX = 1000000,
+    RUN_ROUNDS = 20,
     ROUNDS_OF_PIECE = 8,
     PATCHES_MAX = 3,
     PATCH_BYTES = 128,
@@ -61,12 +62,20 @@ static void go_round(void)
     watch_round();
 }
 
-/* A study or a self-test makes many steps in every round. */
+/* Studies, self-tests and analyses take many steps a round. */
+static bool is_long(void)
+{
+    static const char analysis[] = "analyse";
+    const struct link *link = firmware.link;
+
+    return firmware.turn->studies != TURN_NOBODY || firmware.console->task == CONSOLE_TASK_SELFTEST ||
+           (link->has_request && link->request.type == LINK_SELFTEST) ||
+           memcmp(firmware.console->command, analysis, sizeof analysis - 1u) == 0;
+}
+
 static void spend_round(void)
 {
-    const bool is_long = firmware.turn->studies != TURN_NOBODY || firmware.console->task == CONSOLE_TASK_SELFTEST ||
-                         (firmware.link->has_request && firmware.link->request.type == LINK_SELFTEST);
-    const uint32_t price = is_long ? LONG_ROUND : 1u;
+    const uint32_t price = is_long() ? LONG_ROUND : 1u;
 
     if (rounds_left < price) {
         rounds_left = 0u;
@@ -178,16 +187,16 @@ static void say_restore(const uint8_t *image, uint16_t offset)
 }
 
 /* Its pieces are fetched by the harness, not over the line: only the first request makes them. The rounds that they take on
- * their way back are given on top, for the price of a long one. */
+ * their way back are given on top, for a price that lets an input do it once. */
 static void say_run(void)
 {
     static const uint8_t first[2] = {0u, 0u};
     uint8_t image[SNAPSHOT_SIZE];
 
-    if (rounds_left < LONG_ROUND) {
+    if (rounds_left < RUN_ROUNDS || is_long()) {
         return;
     }
-    rounds_left -= LONG_ROUND;
+    rounds_left -= RUN_ROUNDS;
     say_frame(&(struct frame){.type = LINK_SNAPSHOT, .payload = first, .size = sizeof first});
     memcpy(image, firmware.executive->image, sizeof image);
     patch_image(image);
