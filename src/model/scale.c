@@ -124,6 +124,29 @@ static struct params_problem check_fit(const struct params *params, const struct
     return no_problem;
 }
 
+static struct params_problem check_initial(const char *symbol, float value, float limit)
+{
+    return fmath_abs(value) <= limit ? no_problem : blame(ERROR_OUT_OF_SCALE, symbol, -limit, limit);
+}
+
+/* A plant that starts outside its domain could only fault. */
+static struct params_problem check_start(const struct params *params, const struct scale *scale)
+{
+    const float y_max = SCALE_NORMAL_MAX * scale->normal_m;
+    struct params_problem problem = check_initial("x0", params->x_initial_m, SCALE_DISPLACEMENT_MAX * scale->length_m);
+
+    if (problem.error == ERROR_OK) {
+        problem = check_initial("xd0", params->xd_initial_m_per_s, SCALE_DISPLACEMENT_MAX * scale->speed_m_per_s);
+    }
+    if (problem.error == ERROR_OK) {
+        problem = check_initial("y0", params->y_initial_m, y_max);
+    }
+    if (problem.error == ERROR_OK) {
+        problem = check_initial("yd0", params->yd_initial_m_per_s, y_max * scale->omega_rad_per_s);
+    }
+    return problem;
+}
+
 /* One step must resolve the fastest of the normal and tangential oscillation and of both dampings. */
 static struct params_problem check_step(const struct scale *scale)
 {
@@ -186,6 +209,9 @@ struct params_problem scale_derive(const struct params *params, const struct sca
     scale->length_shift = latched != NULL ? latched->length_shift : length_shift(scale->stiffness);
 
     problem = check_fit(params, scale);
+    if (problem.error == ERROR_OK && latched == NULL) {
+        problem = check_start(params, scale);
+    }
     return problem.error != ERROR_OK ? problem : check_step(scale);
 }
 

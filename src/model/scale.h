@@ -24,6 +24,8 @@
 #define SCALE_LENGTH_SHIFT_MAX 8u
 #define SCALE_UNIT_MIN 1e-30f           /* smallest unit, SI: an initial state in it is still a number */
 #define SCALE_ROUGHNESS_PEAK 1.7320508f /* largest over rms of a uniform distribution: sqrt 3 */
+#define SCALE_DISPLACEMENT_MAX 4096.0f  /* x beyond it, in the model's units, is outside the domain */
+#define SCALE_NORMAL_MAX 64.0f          /* the same of y and y' */
 #define SCALE_FAULT_SPEED 10.0f         /* the plant has left its domain beyond this multiple of max(|v0|, Vref) */
 
 struct scale {

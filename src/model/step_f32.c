@@ -8,9 +8,6 @@
 #include "model/output_f32.h"
 #include "model/slip_f32.h"
 
-#define DISPLACEMENT_MAX 4096.0f /* beyond it the plant has left its domain; in the model's units */
-#define NORMAL_MAX 64.0f
-
 static uint32_t to_share(float part, float whole)
 {
     const float share = part / whole;
@@ -146,6 +143,6 @@ float step_f32_friction(const struct step_f32 *state, const struct step_f32_coef
 bool step_f32_is_outside(const struct step_f32 *state)
 {
     /* Asked as "is it inside?", so that NaN is outside. */
-    return !(fmath_abs(state->v) <= SCALE_FAULT_SPEED && fmath_abs(state->x) <= DISPLACEMENT_MAX &&
-             fmath_abs(state->normal.y) <= NORMAL_MAX && fmath_abs(state->normal.w) <= NORMAL_MAX);
+    return !(fmath_abs(state->v) <= SCALE_FAULT_SPEED && fmath_abs(state->x) <= SCALE_DISPLACEMENT_MAX &&
+             fmath_abs(state->normal.y) <= SCALE_NORMAL_MAX && fmath_abs(state->normal.w) <= SCALE_NORMAL_MAX);
 }

@@ -146,6 +146,11 @@ static void check_refusals(void)
     tap_check(refuses("alpha -1.2", NULL, ERROR_OUT_OF_SCALE, "alpha") &&
                   refuses("alpha 1.2", NULL, ERROR_OUT_OF_SCALE, "alpha") && serves("alpha -1.09"),
               "a slope beyond 8");
+    tap_check(refuses("x0 9000", NULL, ERROR_OUT_OF_SCALE, "x0") && serves("x0 -8900") &&
+                  refuses("xd0 -16385", NULL, ERROR_OUT_OF_SCALE, "xd0") && serves("xd0 16384") &&
+                  refuses("y0 257", NULL, ERROR_OUT_OF_SCALE, "y0") && serves("y0 -256") &&
+                  refuses("yd0 -470", NULL, ERROR_OUT_OF_SCALE, "yd0") && serves("yd0 467"),
+              "a start outside the domain");
     tap_check(refuses("N0 0 v0 0", NULL, ERROR_NO_SCALE, NULL) && refuses("mu_s 0 v0 0", NULL, ERROR_NO_SCALE, NULL) &&
                   serves("v0 0") && serves("mu_s 0"),
               "neither speed nor friction");
