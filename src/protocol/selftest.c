@@ -1,13 +1,8 @@
 /* The tests in the order of their table; those with a plant are spread over many slices. */
-#include "protocol/selftest.h"
-
 #include "base/assert.h"
-#include "base/compiler.h"
 #include "base/decimal.h"
 #include "base/fmath.h"
-#include "base/hash.h"
-#include "model/presets.h"
-#include "model/sine.h"
+#include "protocol/selftest_parts.h"
 
 const struct selftest_info selftest_table[SELFTEST_COUNT] = {
 #define SELFTEST(number, field, name, help) {name, help},
@@ -20,11 +15,12 @@ const struct selftest_info selftest_table[SELFTEST_COUNT] = {
 #include "protocol/selftest.def"
 #undef SELFTEST
 
-enum { PERIODS = 20, DIGITS = 3 };
+enum { DIGITS = 3 };
 
 /* RK4 at 64 steps a period turns the phase by 2 pi h^4/120 a period: 1e-4 of the amplitude after 20. */
 #define NORMAL_TOLERANCE 2e-4f
 #define EQUILIBRIUM_TOLERANCE 1e-6f
+#define FORCED_TOLERANCE 1e-5f
 
 void selftest_start(struct selftest *selftest)
 {
@@ -55,85 +51,6 @@ static uint32_t decimal_failures(void)
     return failures;
 }
 
-/* What a test's plant is, on top of Table 1. The equilibrium is x = mu(v0) N / (k + kt), y = N / ke. */
-static const char *assignments_of(enum selftest_test test)
-{
-    switch (test) {
-    case SELFTEST_EQUILIBRIUM:
-        return "alpha 0 x0 0.15 y0 1";
-    case SELFTEST_FORWARD:
-    case SELFTEST_AGAIN:
-        return "N0 10 alpha -0.02 x0 0.1";
-    case SELFTEST_MIRROR:
-        return "N0 10 alpha -0.02 x0 -0.1 v0 -1";
-    case SELFTEST_DECIMAL:
-    case SELFTEST_NORMAL:
-    case SELFTEST_TICKS:
-    case SELFTEST_COUNT:
-    default:
-        return "";
-    }
-}
-
-static void set_plant(struct selftest *selftest)
-{
-    const struct params_info *info;
-    const char *bad;
-    size_t bad_length;
-    struct params params;
-    enum error error;
-
-    params_default(&params);
-    error = presets_assign(&params, assignments_of((enum selftest_test)selftest->test), &info, &bad, &bad_length);
-    BASE_ASSERT(error == ERROR_OK);
-    error = sim_plan_make(&selftest->plan, &params, NULL).error;
-    BASE_ASSERT(error == ERROR_OK);
-    sim_reset(&selftest->sim, &selftest->plan);
-    selftest->step = 0u;
-    selftest->worst = 0.0f;
-    selftest->hash = HASH_INIT;
-    selftest->is_set = true;
-}
-
-/* Hashes a state as seen in a mirror or not. 0 is added so that -0 counts as 0. */
-static uint32_t hash_state(uint32_t hash, const struct step_f32 *state, bool is_mirrored)
-{
-    const float sign = is_mirrored ? -1.0f : 1.0f;
-
-    hash = hash_word(hash, fmath_bits(sign * state->x + 0.0f));
-    hash = hash_word(hash, fmath_bits(sign * state->v + 0.0f));
-    hash = hash_word(hash, fmath_bits(state->normal.y + 0.0f));
-    return hash_word(hash, (uint32_t)(is_mirrored ? -state->mode : state->mode));
-}
-
-/* How far the plant is from what it should be, relative to the brake force's or the friction force's deflection. */
-static float deviation(const struct selftest *selftest)
-{
-    const struct sim *sim = &selftest->sim;
-    const float n = sim->f32.normal.n;
-
-    if (selftest->test == SELFTEST_NORMAL) {
-        const uint32_t grid = SINE_GRID / selftest->plan.scale.steps_per_period;
-
-        return fmath_abs(sim->f32.normal.y / n - (1.0f - sine_cosine_f32((uint32_t)sim->step * grid)));
-    }
-    return fmath_abs(sim->f32.x * selftest->plan.scale.stiffness / (selftest->plan.scale.friction * n) - 1.0f);
-}
-
-/* Returns true when all steps of the test are made. */
-static bool run_plant(struct selftest *selftest)
-{
-    const uint32_t steps = PERIODS * selftest->plan.scale.steps_per_period;
-
-    for (unsigned i = 0u; i < SELFTEST_SLICE_STEPS && selftest->step < steps; i++) {
-        (void)sim_step(&selftest->sim);
-        selftest->step++;
-        selftest->hash = hash_state(selftest->hash, &selftest->sim.f32, selftest->test == SELFTEST_MIRROR);
-        selftest->worst = fmath_max(selftest->worst, deviation(selftest));
-    }
-    return selftest->step == steps;
-}
-
 static bool conclude(struct selftest *selftest, bool has_passed)
 {
     selftest->passed += has_passed ? 1u : 0u;
@@ -146,11 +63,11 @@ static bool conclude(struct selftest *selftest, bool has_passed)
 
 static bool conclude_deviation(struct selftest *selftest, float allowed)
 {
-    /* A plant that has become NaN is never within tolerance: fmath_max lets it pass, the state does not. */
-    const bool is_finite = fmath_is_finite(selftest->sim.f32.x) && fmath_is_finite(selftest->sim.f32.normal.y);
+    /* A plant that has become NaN is never within tolerance: fmath_max lets it pass, the fault does not. */
+    const bool is_sound = selftest->sim.fault == SIM_FAULT_NONE;
 
     selftest->allowed = allowed;
-    return conclude(selftest, is_finite && selftest->worst <= allowed);
+    return conclude(selftest, is_sound && selftest->worst <= allowed);
 }
 
 static bool conclude_forward(struct selftest *selftest)
@@ -184,6 +101,9 @@ static bool conclude_plant(struct selftest *selftest)
         return conclude_deviation(selftest, NORMAL_TOLERANCE);
     case SELFTEST_EQUILIBRIUM:
         return conclude_deviation(selftest, EQUILIBRIUM_TOLERANCE);
+    case SELFTEST_FORCED_F32:
+    case SELFTEST_FORCED_Q27:
+        return conclude_deviation(selftest, FORCED_TOLERANCE);
     case SELFTEST_FORWARD:
         return conclude_forward(selftest);
     case SELFTEST_MIRROR:
@@ -207,10 +127,10 @@ bool selftest_go_on(struct selftest *selftest, uint32_t ticks_counted, uint32_t 
         return conclude_ticks(selftest, ticks_counted, ticks_expected);
     }
     if (!selftest->is_set) {
-        set_plant(selftest);
+        selftest_set_plant(selftest);
         return false;
     }
-    return run_plant(selftest) && conclude_plant(selftest);
+    return selftest_run_plant(selftest) && conclude_plant(selftest);
 }
 
 bool selftest_is_done(const struct selftest *selftest) { return selftest->test == SELFTEST_COUNT; }
@@ -253,6 +173,8 @@ void selftest_write(struct text *text, const struct selftest *selftest)
         break;
     case SELFTEST_NORMAL:
     case SELFTEST_EQUILIBRIUM:
+    case SELFTEST_FORCED_F32:
+    case SELFTEST_FORCED_Q27:
         write_deviation(text, selftest);
         break;
     case SELFTEST_FORWARD:

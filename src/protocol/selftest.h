@@ -1,11 +1,12 @@
 /* The firmware's own checks, run on the device it runs on: numbers as text, and a second plant against what is known about
- * it in closed form. The plant in the interrupt goes on undisturbed. */
+ * it in closed form, the paper's solution of forced slip (set right) among it. The plant in the interrupt goes on undisturbed. */
 #ifndef PROTOCOL_SELFTEST_H
 #define PROTOCOL_SELFTEST_H
 
 #include <stdbool.h>
 #include <stdint.h>
 
+#include "analysis/perturbation.h"
 #include "base/text.h"
 #include "sim/sim.h"
 
@@ -27,8 +28,9 @@ extern const struct selftest_info selftest_table[SELFTEST_COUNT];
 struct selftest {
     struct sim_plan plan;
     struct sim sim;
-    uint8_t test; /* number of the one under way */
-    bool is_set;  /* its plant stands at its first step */
+    struct perturbation orbit; /* that forced motion is to follow */
+    uint8_t test;              /* number of the one under way */
+    bool is_set;               /* its plant stands at its first step */
     uint32_t passed, failed;
     uint32_t failures; /* bit i: test i failed */
     uint32_t step;     /* of the test under way */

@@ -81,7 +81,7 @@ static void check_turns(void)
     tap_check(bench.console.task == CONSOLE_TASK_SELFTEST && !is_done(LINK_SELFTEST) && reply.payload[1] == ERROR_BUSY,
               "while the console tests, the link does not");
     bench_wait(2000u);
-    tap_check_text(bench.last, "ok selftest passed=7 failed=0", "nor does it disturb");
+    tap_check_text(bench.last, "ok selftest passed=9 failed=0", "nor does it disturb");
 }
 
 void test_link_verdict(void)
