@@ -319,7 +319,7 @@ setup: ## find the tools that are missing and install them (SETUP=no only names 
 	@tools/setup
 
 setup-clang: setup
-	@tools/setup clang
+	@tools/setup clang clang-format
 
 help: ## print this list
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "  make %-9s %s\n", $$1, $$2 }' Makefile

@@ -1,23 +1,7 @@
 #!/bin/sh
 # The bench of the link counts turns on host and board, and says so where there is nothing to count.
 program=${BENCH_LINK:?run by make test}
-work=$(mktemp -d) || exit 1
-trap 'rm -rf "$work"' EXIT
-count=0
-failed=0
-
-ok() { # name, then the command that must succeed
-    name=$1
-    shift
-    count=$((count + 1))
-    if "$@"; then
-        echo "ok $count - $name"
-    else
-        echo "not ok $count - $name"
-        sed 's/^/# /' "$work/out"
-        failed=$((failed + 1))
-    fi
-}
+. "$(dirname "$0")/tap.sh"
 
 run() { # exit code, text of its output, rest of the command
     code=$1
@@ -61,5 +45,4 @@ ok 'one that says what is no frame' bench 1 'no answer' python3 -c "$listener" "
 ok 'one that never stops to' bench 1 'no answer' python3 -c "$listener" "$work/socket" 0102030400 1000000000
 ok 'a command that is none' run 2 usage "$program" --turns 40
 ok 'none of them is left' nobody_is_left
-echo "1..$count"
-[ $failed -eq 0 ]
+finish

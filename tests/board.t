@@ -3,8 +3,9 @@
 import os
 import re
 import subprocess
-import sys
 import time
+
+from tap import Tap
 
 BOARD = os.environ["BOARD"]
 IMAGE = os.environ["PROBE"]
@@ -12,14 +13,7 @@ COMMAND = ["timeout", "150", *os.environ["BOARD_RUN"].split(), IMAGE if os.sep i
 PASTE = bytes(33 + (i * 7 + i // 91) % 90 for i in range(200000))
 FAULTS = (("0", "a store to the null page", 4, 0x82), ("1", "a load from nowhere", 5, 0x8200),
           ("2", "a division by zero", 6, 0x2000000), ("3", "an overflown stack", 4, 0x92), ("4", "an unused interrupt", 36, 0))
-count = failed = 0
-
-
-def ok(is_good, name, seen=""):
-    global count, failed
-    count += 1
-    failed += not is_good
-    print("%sok %d - %s%s" % ("" if is_good else "not ", count, name, "" if is_good else "\n# %r" % (seen,)), flush=True)
+tap = Tap()
 
 
 class Probe:
@@ -55,9 +49,9 @@ def paste(before):
 
 
 good, seen = paste("")
-ok(good, "200 kB pasted into a sleeping main loop arrive whole", seen)
+tap.check(good, "200 kB pasted into a sleeping main loop arrive whole", seen)
 good, seen = paste("t")
-ok(good, "and beside a tick of 10 kHz", seen)
+tap.check(good, "and beside a tick of 10 kHz", seen)
 
 probe = Probe()
 probe.send("f")
@@ -65,9 +59,9 @@ time.sleep(0.5)
 lines = 0
 while lines < 300 and probe.child.stdout.readline() == b"x" * 999 + b"\n":
     lines += 1
-ok(lines == 300, "a reader that comes late gets every byte", lines)
+tap.check(lines == 300, "a reader that comes late gets every byte", lines)
 out, code = probe.end("q")
-ok(code == 7, "the exit code comes through", code)
+tap.check(code == 7, "the exit code comes through", code)
 
 probe = Probe()
 probe.send("c")
@@ -75,12 +69,12 @@ first = probe.field("clock")
 time.sleep(1)
 probe.send("c")
 asleep = probe.field("clock") - first
-ok(asleep < 250000, "time stands still while main sleeps", asleep)
+tap.check(asleep < 250000, "time stands still while main sleeps", asleep)
 probe.send("t")
 time.sleep(0.2)
 probe.send("n")
 ticks = probe.field("ticks")
-ok(ticks > 0, "the tick runs after a sleep", ticks)
+tap.check(ticks > 0, "the tick runs after a sleep", ticks)
 probe.end("q")
 
 before = os.times()
@@ -89,18 +83,17 @@ time.sleep(1)
 probe.end("q")
 after = os.times()
 spent = after.children_user + after.children_system - before.children_user - before.children_system
-ok(spent < 0.5, "a sleep of 1 s costs the machine little", spent)
+tap.check(spent < 0.5, "a sleep of 1 s costs the machine little", spent)
 
 if BOARD == "host":
     probe = Probe()
     out, code = probe.end("cn")
-    ok(code == 0 and out.startswith("clock=") and out.endswith("ticks=0\r\n"), "the end of input ends it", (out, code))
+    tap.check(code == 0 and out.startswith("clock=") and out.endswith("ticks=0\r\n"), "the end of input ends it", (out, code))
 else:
     for command, name, exception, cfsr in FAULTS:
         out, code = Probe().end(command)
         line = re.search(r"\r\n! fault exception=(\w{8}) cfsr=(\w{8}) hfsr=(\w{8}) bfar=(\w{8}) pc=(\w{8})\r\n$", out)
         seen = [int(text, 16) for text in line.groups()] if line else [0] * 5
-        ok(code == 99 and seen[:2] == [exception, cfsr] and (seen[4] != 0) == (command != "3") and
+        tap.check(code == 99 and seen[:2] == [exception, cfsr] and (seen[4] != 0) == (command != "3") and
            (command != "1" or seen[3] == 0x90000000), name + " ends with one line and exit code 99", (out, code))
-print("1..%d" % count)
-sys.exit(failed != 0)
+tap.finish()

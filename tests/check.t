@@ -1,29 +1,13 @@
 #!/bin/sh
 # The checks of the tree pass, and each of them fails on what it is there to find.
 root=$(pwd)
-work=$(mktemp -d) || exit 1
-trap 'rm -rf "$work"' EXIT
-count=0
-failed=0
-
-ok() { # name, then the command that must succeed
-    name=$1
-    shift
-    count=$((count + 1))
-    if "$@" >"$work/out" 2>&1; then
-        echo "ok $count - $name"
-    else
-        echo "not ok $count - $name"
-        sed 's/^/# /' "$work/out"
-        failed=$((failed + 1))
-    fi
-}
+. "$(dirname "$0")/tap.sh"
 
 red() { # name, text that the complaint must hold, then the command that must fail
     name=$1
     text=$2
     shift 2
-    ok "$name" sh -c 'text=$1; shift; out=$("$@" 2>&1) && exit 1; echo "$out"; case $out in *"$text"*) ;; *) exit 1 ;; esac' \
+    ok "$name" quietly sh -c 'text=$1; shift; out=$("$@" 2>&1) && exit 1; echo "$out"; case $out in *"$text"*) ;; *) exit 1 ;; esac' \
         - "$text" "$@"
 }
 
@@ -39,8 +23,8 @@ layers() { # name, file, its lines, complaint
     red "layers: $1" "$4" "$root/tools/check_layers" "$work/tree"
 }
 
-ok 'tables in documents are those of the code' tools/gen_tables --check
-ok 'layers hold' tools/check_layers
+ok 'tables in documents are those of the code' quietly tools/gen_tables --check
+ok 'layers hold' quietly tools/check_layers
 layers 'an include against the arrow' src/model/a.c '#include "sim/b.h"' 'src/model/a.c:1: include against the arrow: sim/b.h'
 layers 'the hal below app' src/protocol/a.c '#include "hal_uart.h"' 'not for this layer: hal_uart.h'
 layers 'a board in app' src/app/a.c '#include "cortex_m/nvic.h"' 'not for this layer: cortex_m/nvic.h'
@@ -50,10 +34,10 @@ layers 'a relative path' src/sim/a.c '#include "../model/a.h"' 'relative include
 layers 'volatile' src/sim/a.c '/* volatile\n * */ int a;\nvolatile int b;' 'src/sim/a.c:3: volatile or assembly'
 layers 'assembly' src/base/a.c '__asm__("nop");' 'volatile or assembly'
 plant src/sim/a.c '/* a volatile\n thing */ #include "base/clean.h"\n#include "model/a.h"\n#include <stdint.h>\nint not_volatile; // "asm"'
-ok 'layers: what is allowed passes' "$root/tools/check_layers" "$work/tree"
+ok 'layers: what is allowed passes' quietly "$root/tools/check_layers" "$work/tree"
 red 'layers: a missing tree' 'no src' "$root/tools/check_layers" "$work"
 
-ok 'every field of a run is in its snapshot' tools/check_snapshot
+ok 'every field of a run is in its snapshot' quietly tools/check_snapshot
 forget() { # name, file, a line to plant after another, complaint
     rm -rf "$work/tree"
     mkdir -p "$work/tree"
@@ -77,8 +61,8 @@ symbols() { # name, source text, complaint
 
 case $IMAGE in
 *.elf)
-    ok 'no forbidden symbol in the firmware' tools/check_symbols "$IMAGE"
-    ok 'nor in the controller' tools/check_symbols "$CONTROLLER"
+    ok 'no forbidden symbol in the firmware' quietly tools/check_symbols "$IMAGE"
+    ok 'nor in the controller' quietly tools/check_symbols "$CONTROLLER"
     ;;
 esac
 cpu='-mcpu=cortex-m4 -mfpu=fpv4-sp-d16 -mfloat-abi=hard'
@@ -89,7 +73,7 @@ cpu='-mcpu=cortex-m7 -mfpu=fpv5-d16 -mfloat-abi=hard'
 symbols 'hardware double' 'double f(double x) { return x * x; }' 'double precision: '
 red 'symbols: a missing file' 'none.elf' tools/check_symbols "$work/none.elf"
 
-ok 'documents hold' tools/check_docs
+ok 'documents hold' quietly tools/check_docs
 cp Makefile "$work"
 echo 'See [here](nowhere.md).' >"$work/a.md"
 red 'documents: a dead link' 'no such file: nowhere.md' "$root/tools/check_docs" "$work"
@@ -104,21 +88,17 @@ page 'a number not filled in' 'It takes {count} steps.' 'not filled in: {count}'
 page 'an empty table' '<!-- table: numbers -->\n\n<!-- end -->' 'a.md:3: nothing between the markers'
 page 'an empty place in a line' 'It takes <!-- steps --> <!-- end --> steps.' 'a.md:1: nothing between the markers'
 printf '%s\n' '<!-- table: x -->' '| `a.md` |' '<!-- end -->' 'Then <!-- y --> 5 <!-- end -->.' >"$work/a.md"
-ok 'documents: a page that is filled in passes' "$root/tools/check_docs" "$work"
+ok 'documents: a page that is filled in passes' quietly "$root/tools/check_docs" "$work"
 
-if command -v clang-format >/dev/null; then
-    ok 'the formatting is that of .clang-format' sh -c 'clang-format --dry-run -Werror $(git ls-files "*.c" "*.h") </dev/null'
-    printf 'int  f( void ){return 0;}\n' >"$work/a.c"
-    red 'formatting: a file that has another' 'code should be clang-formatted' \
-        clang-format --style=file:"$root/.clang-format" --dry-run -Werror "$work/a.c"
-else
-    echo '# clang-format is not installed: the formatting was not looked at'
-fi
+ok 'the formatting is that of .clang-format' quietly sh -c 'clang-format --dry-run -Werror $(git ls-files "*.c" "*.h") </dev/null'
+printf 'int  f( void ){return 0;}\n' >"$work/a.c"
+red 'formatting: a file that has another' 'code should be clang-formatted' \
+    clang-format --style=file:"$root/.clang-format" --dry-run -Werror "$work/a.c"
 
 summary() { # name, last line, then the commands that make a test script
     printf '#!/bin/sh\n%s\n' "$3" >"$work/a.t"
     chmod +x "$work/a.t"
-    ok "summary: $1" sh -c 'out=$(tools/tap_summary "$1" 2>&1); code=$?; echo "$out"
+    ok "summary: $1" quietly sh -c 'out=$(tools/tap_summary "$1" 2>&1); code=$?; echo "$out"
         [ "$(echo "$out" | tail -n 1)" = "$2" ] && { [ $code = 0 ] && good=yes || good=no; [ $good = "$3" ]; }' \
         - "$work/a.t" "$2" "${4:-no}"
 }
@@ -133,5 +113,4 @@ summary 'a missing tool' '0 passed, 1 failed' 'exec no-such-tool-here'
 summary 'a skipped test' '1 passed, 1 failed' 'echo "1..2"; echo "ok 1"; echo "ok 2 # SKIP no tool"'
 summary 'a skipped script' '0 passed, 1 failed' 'echo "1..0 # SKIP no tool"'
 
-echo "1..$count"
-exit "$failed"
+finish

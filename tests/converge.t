@@ -4,22 +4,14 @@ import csv
 import math
 import os
 import subprocess
-import sys
 import tempfile
+
+from tap import Tap
 
 ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 PROGRAM = os.environ.get("CONVERGE") or os.path.join(ROOT, "build", "tests", "converge")
 LIMIT_S = 120
-count = failed = 0
-
-
-def ok(is_good, name, note=""):
-    global count, failed
-    count += 1
-    failed += not is_good
-    print("%sok %d - %s" % ("" if is_good else "not ", count, name), flush=True)
-    if not is_good and note:
-        print("# %s" % note)
+tap = Tap()
 
 
 def read(path):
@@ -39,20 +31,19 @@ def order(row, first, last):
 
 with tempfile.TemporaryDirectory() as folder:
     done = subprocess.run([PROGRAM, "--out", folder], timeout=LIMIT_S, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
-    ok(done.returncode == 0, "the table is made", done.stdout[-500:])
+    tap.check(done.returncode == 0, "the table is made", done.stdout[-500:])
     errors = read(os.path.join(folder, "converge.csv"))
     for case, of in errors.items():
         fine, naive, tanh = of["event-double"], of["naive-double"], of["tanh-double"]
-        ok(3.8 < order(fine, 64, 1024) < 4.2, f"{case}: events located in double: fourth order", str(fine))
-        ok(fine[4096] < 5e-11, f"{case}: down to 5e-11 and below", str(fine))
+        tap.check(3.8 < order(fine, 64, 1024) < 4.2, f"{case}: events located in double: fourth order", str(fine))
+        tap.check(fine[4096] < 5e-11, f"{case}: down to 5e-11 and below", str(fine))
         for name in ("f32", "q27"):
-            ok(abs(of[name][64] / fine[64] - 1) < 0.2, f"{case}: {name} at 64 steps errs as its method does", str(of[name]))
-            ok(of[name][1024] < {"f32": 1e-5, "q27": 1e-4}[name], f"{case}: {name}: its floor", str(of[name]))
-        ok(of["f32-exact"][64] < 1.1 * fine[64], f"{case}: normal exact is no worse", str(of["f32-exact"]))
+            tap.check(abs(of[name][64] / fine[64] - 1) < 0.2, f"{case}: {name} at 64 steps errs as its method does", str(of[name]))
+            tap.check(of[name][1024] < {"f32": 1e-5, "q27": 1e-4}[name], f"{case}: {name}: its floor", str(of[name]))
+        tap.check(of["f32-exact"][64] < 1.1 * fine[64], f"{case}: normal exact is no worse", str(of["f32-exact"]))
         if case != "slip":
-            ok(order(naive, 64, 4096) < 1.5 and naive[4096] > 1e-3, f"{case}: the raw sign is of first order", str(naive))
-            ok(tanh[4096] > 5e-3, f"{case}: a smoothed sign has a floor", str(tanh))
+            tap.check(order(naive, 64, 4096) < 1.5 and naive[4096] > 1e-3, f"{case}: the raw sign is of first order", str(naive))
+            tap.check(tanh[4096] > 5e-3, f"{case}: a smoothed sign has a floor", str(tanh))
     refused = subprocess.run([PROGRAM], timeout=LIMIT_S, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
-    ok(refused.returncode == 2 and "usage" in refused.stdout, "no folder: usage")
-print("1..%d" % count)
-sys.exit(failed > 0)
+    tap.check(refused.returncode == 2 and "usage" in refused.stdout, "no folder: usage")
+tap.finish()

@@ -1,23 +1,7 @@
 #!/bin/sh
 # Frames through a bad line: none arrives that was not sent, and the campaign sees it where one does.
 program=${CAMPAIGN:?run by make test}
-work=$(mktemp -d) || exit 1
-trap 'rm -rf "$work"' EXIT
-count=0
-failed=0
-
-ok() { # name, then the command that must succeed
-    name=$1
-    shift
-    count=$((count + 1))
-    if "$@"; then
-        echo "ok $count - $name"
-    else
-        echo "not ok $count - $name"
-        sed 's/^/# /' "$work/out"
-        failed=$((failed + 1))
-    fi
-}
+. "$(dirname "$0")/tap.sh"
 
 run() { # exit code, then options
     code=$1
@@ -55,5 +39,4 @@ expected=$(($(value 'pieces refused: CRC') / 4096))
 ok 'about one in 4096' is 'WRONG ACCEPTS' $((expected / 2)) $((expected * 2))
 ok 'a line where nothing arrives proves nothing' run 1 --frames 1000 --ber 0.3
 ok 'an option that is none' run 2 --frame 7
-echo "1..$count"
-[ $failed -eq 0 ]
+finish

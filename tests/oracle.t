@@ -6,8 +6,9 @@ import glob
 import math
 import os
 import subprocess
-import sys
 import tempfile
+
+from tap import Tap
 
 ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 LIMIT_S = 60
@@ -20,14 +21,7 @@ GOLDEN = {  # table: rows, each for something that the others lack
                    "brake_3000N",
 }
 COLUMNS = "x_20 v_20 y_20 xmax_20 xmin_20 vmax_20 vmin_20 stick_20".split()
-count = failed = 0
-
-
-def ok(is_good, name):
-    global count, failed
-    count += 1
-    failed += not is_good
-    print("%sok %d - %s" % ("" if is_good else "not ", count, name), flush=True)
+tap = Tap()
 
 
 def read(path):
@@ -74,19 +68,19 @@ def check_closed_forms(oracle, folder):
         for column, periods in (("x_20", 20), ("x_100", 100)):
             exact = closed_form(plant, periods * period)
             error = abs(float(row[column]) - exact) / float(row["xmax_20"])
-            ok(error < 2e-9, "slip without slope, ke %g: %s has its closed form (%.1e)" % (plant["ke"], column, error))
+            tap.check(error < 2e-9, "slip without slope, ke %g: %s has its closed form (%.1e)" % (plant["ke"], column, error))
 
     damped = dict(SMOOTH, N0=0., cn=.05, y0=1., x0=.1, mus=0.)  # free decay in both directions
     row = solve(oracle, folder, [damped], "--horizon", "20")[0]
     d, t = .05 / .6, 20 * period_of(damped)
     own = math.sqrt(1 / .3 - d * d)
     exact = math.exp(-d * t) * (math.cos(own * t) + d / own * math.sin(own * t))
-    ok(abs(float(row["y_20"]) - exact) < 1e-8 * abs(exact), "y decays as its closed form says")
+    tap.check(abs(float(row["y_20"]) - exact) < 1e-8 * abs(exact), "y decays as its closed form says")
 
     stuck = dict(SMOOTH, v0=.001, y0=100., N0=100., xd0=.001)  # rides with the disc until k x = mu_s N would break it
     row = solve(oracle, folder, [stuck], "--horizon", "20")[0]
     error = abs(float(row["x_20"]) - .001 * 20 * period_of(stuck))
-    ok(row["stick_20"] == "1" and error < 1e-9, "a stuck pad rides along")
+    tap.check(row["stick_20"] == "1" and error < 1e-9, "a stuck pad rides along")
 
 
 def error_of(row, truth, column):
@@ -102,7 +96,7 @@ def check_golden(oracle, folder):
         wanted = [truth[name] for name in names.split()]
         for row, old in zip(solve(oracle, folder, wanted, "--horizon", "20"), wanted):
             worst = max(error_of(row, old, column) for column in COLUMNS)
-            ok(worst < 1e-7, "golden %s over 20 periods (%.1e)" % (old["case"], worst))
+            tap.check(worst < 1e-7, "golden %s over 20 periods (%.1e)" % (old["case"], worst))
 
 
 def check_attractors(oracle, folder):
@@ -115,7 +109,7 @@ def check_attractors(oracle, folder):
         shares = max(abs(float(row[c]) - float(old[c])) for c in ("stick", "slipminus"))
         stretch = abs(float(row["lle"]) - float(old["lle"])) * float(row["T_n"])
         is_near = abs(xpp - exact) <= 1e-5 * exact + 1e-12 and shares < 1e-4 and stretch < 2e-3
-        ok(row["class"] == old["class"] and is_near,
+        tap.check(row["class"] == old["class"] and is_near,
            "golden %s settles: %s, xpp %.9g" % (name, row["class"], xpp))
 
 
@@ -124,14 +118,14 @@ def check_symmetries(oracle, folder):
     mirrored = dict(base, v0=-1.)
     larger = dict(base, v0=2., N0=10., alpha=-.01)
     rows = [float(row["x_20"]) for row in solve(oracle, folder, [base, mirrored, larger], "--horizon", "20")]
-    ok(abs(rows[0] + rows[1]) < 1e-9, "the mirrored disc mirrors the motion")
-    ok(abs(2 * rows[0] - rows[2]) < 3e-9, "twice load and speed at the same N alpha: twice the motion")
+    tap.check(abs(rows[0] + rows[1]) < 1e-9, "the mirrored disc mirrors the motion")
+    tap.check(abs(2 * rows[0] - rows[2]) < 3e-9, "twice load and speed at the same N alpha: twice the motion")
 
 
 def check_divergence(oracle, folder):
     row = solve(oracle, folder, [dict(SMOOTH, alpha=-.1, x0=3.5)])[0]
     is_dated = abs(float(row["t_v10"]) - 1.7443185) < 2e-6  # RK4 with steps of 2e-5 s
-    ok(row["class"] == "diverging" and row["xpp"] == "nan" and is_dated, "divergence is seen and dated")
+    tap.check(row["class"] == "diverging" and row["xpp"] == "nan" and is_dated, "divergence is seen and dated")
 
 
 def check_naive_limit(oracle, folder):
@@ -145,7 +139,7 @@ def check_naive_limit(oracle, folder):
             row = solve(oracle, folder, [plant], "--naive", str(n))[0]
             errors.append(max(error_of(row, truth, c) for c in ("x_20", "v_20", "xmax_20", "xmin_20", "vmin_20")))
         shrinks = all(b < a / 3 for a, b in zip(errors, errors[1:]))
-        ok(shrinks and errors[-1] < 2e-3,
+        tap.check(shrinks and errors[-1] < 2e-3,
            "naive RK4 tends to the oracle, %s: %s" % (name, " ".join("%.1e" % e for e in errors)))
 
 
@@ -153,9 +147,9 @@ def check_refusals(oracle, folder):
     for name, row in (("m", dict(SMOOTH, m=-1.)), ("ntype", dict(SMOOTH, ntype=7)), ("N0", dict(SMOOTH, N0="lots"))):
         try:
             solve(oracle, folder, [row], "--horizon", "1", "--jobs", "2")
-            ok(False, "a wrong %s is refused" % name)
+            tap.check(False, "a wrong %s is refused" % name)
         except subprocess.CalledProcessError:
-            ok(True, "a wrong %s is refused" % name)
+            tap.check(True, "a wrong %s is refused" % name)
 
 
 def main():
@@ -170,9 +164,8 @@ def main():
         for check in (check_closed_forms, check_golden, check_attractors, check_symmetries, check_divergence,
                       check_naive_limit, check_refusals):
             check(oracle, folder)
-    print("1..%d" % count)
-    return failed > 0
+    tap.finish()
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    main()

@@ -106,7 +106,7 @@ static float equilibrium_deviation(const struct sim *sim, const struct scale *sc
 static float forced_deviation(const struct selftest *selftest)
 {
     const struct sim *sim = &selftest->sim;
-    const uint32_t step_turns = (uint32_t)(0x100000000u / selftest->plan.scale.steps_per_period);
+    const uint32_t step_turns = 0x80000000u / selftest->plan.scale.steps_per_period * 2u; /* a power of two */
     const float unit = (float)(1u << selftest->plan.scale.length_shift) / (float)(1u << PLANT_FRACTION_BITS);
     const float x = (float)sim->output.x * unit;
 

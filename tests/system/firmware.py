@@ -8,6 +8,9 @@ import subprocess
 import sys
 import time
 
+sys.path.append(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+from tap import Tap  # noqa: E402, F401: the tests have both from here
+
 # By board, as make command prints them; "board" is the one under test.
 COMMANDS = {name: shlex.split(command)
             for name, command in (line.split(": ", 1) for line in os.environ["COMMANDS"].splitlines())}
@@ -122,25 +125,3 @@ class Firmware:
 
 def fields(line):
     return dict(word.split("=", 1) for word in line.split() if "=" in word)
-
-
-class Tap:
-    """Numbers tests and prints the plan at the end."""
-
-    def __init__(self):
-        self.count, self.failed = 0, 0
-
-    def note(self, text):
-        print(f"# {text}", flush=True)
-
-    def check(self, holds, claim, *notes):
-        self.count += 1
-        self.failed += not holds
-        print(f"{'' if holds else 'not '}ok {self.count} - {claim}", flush=True)
-        if not holds:
-            for note in notes:
-                print(f"# {note}", flush=True)
-
-    def finish(self):
-        print(f"1..{self.count}")
-        raise SystemExit(self.failed != 0)

@@ -12,6 +12,9 @@ import tempfile
 import time
 
 HERE = os.path.dirname(os.path.abspath(__file__))
+sys.path.append(os.path.dirname(HERE))
+from tap import Tap  # noqa: E402
+
 TOOL = os.environ.get("TOOL", "build/tools/squeal")
 FAKE = [sys.executable, os.path.join(HERE, "fake_firmware.py")]
 LIMIT_S = 180
@@ -30,18 +33,7 @@ still,0.3,0.01,0,0.3,-0.002,1,1,1,0,0,2,0,0,0,0,-1e+30,0,0,0,0,0,0,0,0,0,0,1,0,0
 """
 
 
-class Tap:
-    def __init__(self):
-        self.count = 0
-        self.failed = 0
 
-    def ok(self, is_good, name, run=None):
-        self.count += 1
-        self.failed += not is_good
-        print("%sok %d - %s" % ("" if is_good else "not ", self.count, name), flush=True)
-        if not is_good and run is not None:
-            for line in ("exit %s" % run.returncode, *run.stdout.splitlines(), *run.stderr.splitlines()):
-                print("# " + line)
 
 
 def tool(*arguments):
@@ -71,116 +63,116 @@ def golden_tests(tap, folder):
         return tool("golden", "--cases", table, "--out", out, "--limit", "3", *more, "--", *FAKE, "--cases", known, *fake)
 
     run = golden()
-    tap.ok(run.returncode == 0 and run.stdout.endswith("8 passed, 0 failed\n"), "equal answers pass", run)
+    tap.check(run.returncode == 0 and run.stdout.endswith("8 passed, 0 failed\n"), "equal answers pass", run)
     with open(out, newline="") as file:
         rows = list(csv.DictReader(file))
     wanted = [line.split(",")[0] for line in ROWS.splitlines()]
-    tap.ok([row["case"] for row in rows] == wanted, "the rows come out in the order of the table")
-    tap.ok(rows[0]["xpp"] == "1.23" and rows[0]["steps"] == str(340 * 64), "a row holds the answers as received")
-    tap.ok(all(rows[6][name] == "nan" for name in ("x_20", "stick_20", "x_100", "xpp", "f_up")) and
+    tap.check([row["case"] for row in rows] == wanted, "the rows come out in the order of the table")
+    tap.check(rows[0]["xpp"] == "1.23" and rows[0]["steps"] == str(340 * 64), "a row holds the answers as received")
+    tap.check(all(rows[6][name] == "nan" for name in ("x_20", "stick_20", "x_100", "xpp", "f_up")) and
            (rows[6]["verdict"], rows[6]["class"], rows[6]["t_v10"]) == ("squeal", "diverging", "1.7476"),
            "a diverging row has a verdict and no measurements")
 
     run = golden(more=())
-    tap.ok(run.returncode == 0 and "xpp  " not in run.stdout, "without --asymptotic the attractor is not compared", run)
+    tap.check(run.returncode == 0 and "xpp  " not in run.stdout, "without --asymptotic the attractor is not compared", run)
     with open(out, newline="") as file:
-        tap.ok(all(row["xpp"] == "nan" for row in csv.DictReader(file)), "and its columns are nan")
+        tap.check(all(row["xpp"] == "nan" for row in csv.DictReader(file)), "and its columns are nan")
 
     swapped = write(folder + "/swapped.csv", "\r\n".join(
         ",".join(reversed(line.split(","))) for line in (COLUMNS + "\n" + ROWS).splitlines()) + "\r\n")
     run = golden(table=swapped)
-    tap.ok(run.returncode == 0 and "8 passed" in run.stdout, "columns in any order, lines ended by CR LF", run)
+    tap.check(run.returncode == 0 and "8 passed" in run.stdout, "columns in any order, lines ended by CR LF", run)
 
     # Each is beyond its tolerance by a little; its neighbour is within.
     for fields, bad in (("x=1.004", "sticks: x_20"), ("xmax=1.0011", "sticks: xmax_20"), ("xmin=1.002", "sticks: xmin_20"),
                         ("stick=1.06", "sticks: stick_20"), ("xpp=1.003", "sticks: xpp"), ("f_up=1.0002", "sticks: f_up"),
                         ("t_v10=1.02", "leaves: t_v10")):
         run = golden("--skew", fields)
-        tap.ok(run.returncode == 1 and bad in run.stdout, "too large an error of " + bad, run)
+        tap.check(run.returncode == 1 and bad in run.stdout, "too large an error of " + bad, run)
     for fields in ("xmax=1.0009", "stick=1.004", "xpp=1.001", "f_up=1.00005", "t_v10=1.005"):
         run = golden("--skew", fields)
-        tap.ok(run.returncode == 0, "an error within the tolerance: " + fields, run)
+        tap.check(run.returncode == 0, "an error within the tolerance: " + fields, run)
     run = golden("--skew", "xmax=1.0029")
-    tap.ok("brake: xmax_20" not in run.stdout and "sticks: xmax_20" in run.stdout, "a friction floor has its own tolerance", run)
+    tap.check("brake: xmax_20" not in run.stdout and "sticks: xmax_20" in run.stdout, "a friction floor has its own tolerance", run)
     run = golden("--skew", "xmax=1.0029", more=("--spp", "128"))
-    tap.ok("brake: xmax_20" in run.stdout, "but not at 128 steps a period", run)
+    tap.check("brake: xmax_20" in run.stdout, "but not at 128 steps a period", run)
     run = golden("--skew", "xpp=1.015")
-    tap.ok("sine: xpp" not in run.stdout and "edge: xpp" not in run.stdout and "sticks: xpp" in run.stdout,
+    tap.check("sine: xpp" not in run.stdout and "edge: xpp" not in run.stdout and "sticks: xpp" in run.stdout,
            "an aperiodic or marginal size is compared less strictly", run)
 
     run = golden("--say", "propensity=quiet")
-    tap.ok(run.returncode == 1 and "sticks: verdict is quiet, expected squeal" in run.stdout and
+    tap.check(run.returncode == 1 and "sticks: verdict is quiet, expected squeal" in run.stdout and
            "edge: verdict" not in run.stdout and "brake: verdict" not in run.stdout, "loud cases must be squeal", run)
     run = golden("--say", "propensity=squeal")
-    tap.ok(run.returncode == 1 and "brake: verdict is squeal" in run.stdout and "edge" not in run.stdout,
+    tap.check(run.returncode == 1 and "brake: verdict is squeal" in run.stdout and "edge" not in run.stdout,
            "quiet cases must not be squeal", run)
     run = golden("--say", "propensity=unknown")
-    tap.ok("brake: verdict is unknown" in run.stdout and "sticks: verdict is unknown" in run.stdout, "unknown fails", run)
+    tap.check("brake: verdict is unknown" in run.stdout and "sticks: verdict is unknown" in run.stdout, "unknown fails", run)
     run = golden("--say", "propensity=watch")
-    tap.ok("brake: verdict is watch" in run.stdout, "more than a tenth of the quiet cases as watch fails", run)
+    tap.check("brake: verdict is watch" in run.stdout, "more than a tenth of the quiet cases as watch fails", run)
     run = golden("--say", "predicted=quiet")
-    tap.ok("sticks: predicted" in run.stdout and "steps: predicted" not in run.stdout and "sine: predicted" not in run.stdout,
+    tap.check("sticks: predicted" in run.stdout and "steps: predicted" not in run.stdout and "sine: predicted" not in run.stdout,
            "a wrong prediction fails where the load settles", run)
     run = golden("--say", "saturations=2")
-    tap.ok("sticks: saturations" in run.stdout and "leaves: saturations" not in run.stdout, "saturation of a bounded case", run)
+    tap.check("sticks: saturations" in run.stdout and "leaves: saturations" not in run.stdout, "saturation of a bounded case", run)
     run = golden("--say", "class=diverging")
-    tap.ok(run.returncode == 0, "the class of bounded cases is not judged", run)
+    tap.check(run.returncode == 0, "the class of bounded cases is not judged", run)
     other = write(folder + "/other.csv", COLUMNS + "\n" + ROWS.replace("1.7476,diverging", "nan,stickslip-p1"))
     run = golden(known=other)
-    tap.ok("leaves: x_20 is 14433, expected nan" in run.stdout, "measurements after the divergence fail", run)
+    tap.check("leaves: x_20 is 14433, expected nan" in run.stdout, "measurements after the divergence fail", run)
 
     run = golden("--refuse", "set load ramp")
-    tap.ok(run.returncode == 1 and "brake: error not-served" in run.stderr and "7 passed, 1 failed" in run.stdout,
+    tap.check(run.returncode == 1 and "brake: error not-served" in run.stderr and "7 passed, 1 failed" in run.stdout,
            "a refused row is failed with its reason, the others go on", run)
     with open(out, newline="") as file:
         rows = list(csv.DictReader(file))
-    tap.ok(rows[2]["class"] == "refused" and rows[2]["x_20"] == "nan", "and is written as such")
+    tap.check(rows[2]["class"] == "refused" and rows[2]["x_20"] == "nan", "and is written as such")
     run = golden("--die", "set load ramp")
-    tap.ok(run.returncode == 1 and "ended with exit code 3" in run.stderr and "the kernel image is gone" in run.stderr and
+    tap.check(run.returncode == 1 and "ended with exit code 3" in run.stderr and "the kernel image is gone" in run.stderr and
            "7 passed, 1 failed" in run.stdout, "a firmware that dies at one case costs that case", run)
     run = golden("--die", "echo")
-    tap.ok(run.returncode == 1 and "0 passed, 8 failed" in run.stdout, "a firmware that dies at once", run)
+    tap.check(run.returncode == 1 and "0 passed, 8 failed" in run.stdout, "a firmware that dies at once", run)
     run = golden("--mute", "measure", more=("--limit", "1"))
-    tap.ok(run.returncode == 1 and "s after 'measure 20'" in run.stderr and "was silent for" in run.stderr, "a silent firmware", run)
+    tap.check(run.returncode == 1 and "s after 'measure 20'" in run.stderr and "was silent for" in run.stderr, "a silent firmware", run)
     run = golden("--flood")
-    tap.ok(run.returncode == 0, "a firmware that talks while it is talked to", run)
+    tap.check(run.returncode == 0, "a firmware that talks while it is talked to", run)
     run = tool("golden", "--cases", cases, "--out", out, "--", "no-such-program-at-all")
-    tap.ok(run.returncode == 1 and "no-such-program-at-all: command not found" in run.stderr, "a missing command", run)
+    tap.check(run.returncode == 1 and "no-such-program-at-all: command not found" in run.stderr, "a missing command", run)
 
     run = tool("golden", "--cases", cases, "--out", "/dev/full", "--", *FAKE, "--cases", cases)
-    tap.ok(run.returncode == 1 and "/dev/full: No space left on device" in run.stderr and "passed" not in run.stdout,
+    tap.check(run.returncode == 1 and "/dev/full: No space left on device" in run.stderr and "passed" not in run.stdout,
            "a full disk", run)
     run = golden("--refuse", "set")
-    tap.ok(run.returncode == 1 and "no reference" not in run.stdout and
+    tap.check(run.returncode == 1 and "no reference" not in run.stdout and
            "no number of any row could be compared" in run.stdout and run.stdout.endswith("\n0 passed, 8 failed\n"),
            "rows that are all refused leave nothing to compare", run)
     inputs = COLUMNS.split(",").index("x_20")
     bare = write(folder + "/bare.csv", "\n".join(
         ",".join(line.split(",")[:inputs]) for line in (COLUMNS + "\n" + ROWS).splitlines()) + "\n")
     run = golden(table=bare, more=())
-    tap.ok(run.returncode == 0 and "no reference columns: its rows only ran" in run.stdout and
+    tap.check(run.returncode == 0 and "no reference columns: its rows only ran" in run.stdout and
            run.stdout.endswith("8 passed, 0 failed\n"), "a table of inputs alone only runs", run)
     run = golden("--refuse", "set m 0.3 c 0.01 ke 1 kt 1 k 1 cn 0 v0 1 alpha 0 contact bilateral spp 64 normal rk4 method naive",
                  more=("--method", "naive"))
-    tap.ok(run.returncode == 1 and "sticks: error not-served" in run.stderr, "the method goes to the firmware", run)
+    tap.check(run.returncode == 1 and "sticks: error not-served" in run.stderr, "the method goes to the firmware", run)
     run = tool("golden", "--cases", cases, "--out", folder + "/made", "--", *FAKE, "--cases", cases)
-    tap.ok(run.returncode == 0 and os.listdir(folder + "/made") == ["cases.csv"], "a folder to write to", run)
+    tap.check(run.returncode == 0 and os.listdir(folder + "/made") == ["cases.csv"], "a folder to write to", run)
     run = tool("golden", "--cases", cases, "--out", folder + "/a/b", "--", *FAKE, "--cases", cases)
-    tap.ok(run.returncode == 1 and "/a/b/cases.csv: No such file or directory" in run.stderr, "a folder that cannot be", run)
+    tap.check(run.returncode == 1 and "/a/b/cases.csv: No such file or directory" in run.stderr, "a folder that cannot be", run)
     run = tool("golden", "--cases", write(folder + "/gap.csv", COLUMNS + "\n" + ROWS + "short,1,2\n"), "--out", out,
                "--", *FAKE)
-    tap.ok(run.returncode == 1 and "gap.csv:10: 3 cells where the header has 39" in run.stderr, "a ragged table", run)
+    tap.check(run.returncode == 1 and "gap.csv:10: 3 cells where the header has 39" in run.stderr, "a ragged table", run)
     run = golden(table=write(folder + "/hole.csv", COLUMNS + "\n" + ROWS.replace("sticks,0.3", "sticks,")))
-    tap.ok(run.returncode == 1 and "sticks: no number in column m" in run.stderr, "an empty cell", run)
+    tap.check(run.returncode == 1 and "sticks: no number in column m" in run.stderr, "an empty cell", run)
     run = tool("golden", "--cases", folder + "/none.csv", "--out", out, "--", *FAKE)
-    tap.ok(run.returncode == 1 and "none.csv: No such file" in run.stderr, "a missing table", run)
+    tap.check(run.returncode == 1 and "none.csv: No such file" in run.stderr, "a missing table", run)
     for arguments in ((), ("sing",), ("golden", "--", "x"), ("golden", "--cases", cases, "--out", out),
                       ("golden", "--cases", cases, "--out", out, "--jobs", "0", "--", "x"),
                       ("golden", "--wrong", "--", "x")):
         run = tool(*arguments)
-        tap.ok(run.returncode == 2 and len(run.stderr.splitlines()) == 1, "usage: " + " ".join(arguments[:1] + arguments[3:]), run)
+        tap.check(run.returncode == 2 and len(run.stderr.splitlines()) == 1, "usage: " + " ".join(arguments[:1] + arguments[3:]), run)
     run = tool("--help")
-    tap.ok(run.returncode == 0 and "examples:" in run.stdout, "help", run)
+    tap.check(run.returncode == 0 and "examples:" in run.stdout, "help", run)
 
 
 def signal_tests(tap, folder):
@@ -197,7 +189,7 @@ def signal_tests(tap, folder):
             pid = int(file.read())
         child.send_signal(number)
         code = child.wait(LIMIT_S)
-        tap.ok(code == -number and not is_running(pid), "signal %d ends the firmware too" % number)
+        tap.check(code == -number and not is_running(pid), "signal %d ends the firmware too" % number)
 
 
 def sound_of(path):
@@ -240,37 +232,37 @@ def map_tests(tap, out, story):
         return [name for name in os.listdir(out) if name.startswith("map")]
 
     run = story(more=("--acts", "1", "--points", "0"))
-    tap.ok(run.returncode == 0 and "map:" not in run.stdout and not names() and record() is None, "no map where none is asked for",
+    tap.check(run.returncode == 0 and "map:" not in run.stdout and not names() and record() is None, "no map where none is asked for",
            run)
     run = the_map(env=None)
-    tap.ok(run.returncode == 0, "a map", run)
+    tap.check(run.returncode == 0, "a map", run)
     rows = table()
-    tap.ok(list(rows[0]) == "done,of,i,j,N1[N],alpha[s/m],propensity,class,period,amplitude[um],velocity[mm/s],frequency[Hz],"
+    tap.check(list(rows[0]) == "done,of,i,j,N1[N],alpha[s/m],propensity,class,period,amplitude[um],velocity[mm/s],frequency[Hz],"
            "growth[1/s],predicted,predicted_growth[1/s],end,periods,error".split(","), "map.csv has every field, with its unit")
-    tap.ok([int(row["done"]) for row in rows] == list(range(1, 37)) and
+    tap.check([int(row["done"]) for row in rows] == list(range(1, 37)) and
            [(row["i"], row["j"]) for row in rows[5:8]] == [("5", "0"), ("0", "1"), ("1", "1")], "and every point")
-    tap.ok(rows[5]["error"] == "out-of-scale" and rows[5]["propensity"] == "", "a refused point has its reason, and no more")
-    tap.ok("squeal               14 points, amplitude 8.12 to 8.83 um" in run.stdout and
+    tap.check(rows[5]["error"] == "out-of-scale" and rows[5]["propensity"] == "", "a refused point has its reason, and no more")
+    tap.check("squeal               14 points, amplitude 8.12 to 8.83 um" in run.stdout and
            "watch                1 point," in run.stdout and "quiet                15 points" in run.stdout and
            "still growing        3 points" in run.stdout, "counts by verdict are told", run)
-    tap.ok("|alpha| N = c        right at 29 points, wrong at 0" in run.stdout and
+    tap.check("|alpha| N = c        right at 29 points, wrong at 0" in run.stdout and
            "prediction           right at 29 points, wrong at 0" in run.stdout and "a point\n" in run.stdout,
            "and how right the rules were", run)
-    tap.ok("refused              6\n" in run.stdout and "three 3\n" in run.stdout and "saturations" not in run.stdout,
+    tap.check("refused              6\n" in run.stdout and "three 3\n" in run.stdout and "saturations" not in run.stdout,
            "and what should have been nothing", run)
     known = record()
-    tap.ok(known["complete"] and (known["points"], known["points_missing"], known["squeal"], known["refused"]) == (36, 0, 14, 6) and
+    tap.check(known["complete"] and (known["points"], known["points_missing"], known["squeal"], known["refused"]) == (36, 0, 14, 6) and
            known["command"] == "scan N1 650 5400 6 alpha -0.12 -0.006 6 transient 1000" and known["axes"][1]["unit"] == "s/m" and
            known["parameters_si"]["c"] == 120 and known["counted_by_the_device"]["steps"] == 25600 * 36 and
            known["wall_s_a_point"] > 0, "run.json has the map", run)
     told = [int(line.split()[0]) for line in run.stdout.splitlines() if " of 36 points, " in line]
-    tap.ok(told == [4, 8, 11, 15, 18, 22, 26, 29, 33] and "\r" not in run.stdout + run.stderr,
+    tap.check(told == [4, 8, 11, 15, 18, 22, 26, 29, 33] and "\r" not in run.stdout + run.stderr,
            "without a terminal the progress is a line for every tenth", run)
     if shutil.which("gnuplot"):
-        tap.ok(all(os.path.getsize("%s/map.%s" % (out, kind)) > 10000 for kind in ("svg", "png")), "its picture", run)
+        tap.check(all(os.path.getsize("%s/map.%s" % (out, kind)) > 10000 for kind in ("svg", "png")), "its picture", run)
         with open(out + "/map.svg", encoding="utf-8") as file:
             text = file.read()
-        tap.ok("\u03b1" in text and "[\u00b5m]" in text and "30 trials" not in text and "36 trials" in text and
+        tap.check("\u03b1" in text and "[\u00b5m]" in text and "30 trials" not in text and "36 trials" in text and
                "board fake" in text, "says what it shows", run)
 
     master, slave = os.openpty()
@@ -283,12 +275,12 @@ def map_tests(tap, out, story):
     stdout = run.communicate(timeout=LIMIT_S)[0]
     shown = (shown + read_until(master, None)).decode()
     os.close(master)
-    tap.ok(shown.startswith("\r[") and " of 36 points, " in shown and " s left" in shown, "on a terminal it is a bar in place")
+    tap.check(shown.startswith("\r[") and " of 36 points, " in shown and " s left" in shown, "on a terminal it is a bar in place")
     known = record()
     cut = int(shown.split("the map was cut short: ")[1].split()[0]) if "cut short" in shown else 0
-    tap.ok(run.returncode == 1 and 0 < cut < 36 and "written" in stdout and " of 36 points, " not in stdout,
+    tap.check(run.returncode == 1 and 0 < cut < 36 and "written" in stdout and " of 36 points, " not in stdout,
            "Ctrl-C ends the map in words, and the story after it")
-    tap.ok(len(table()) == cut == known["points"] and not known["complete"] and
+    tap.check(len(table()) == cut == known["points"] and not known["complete"] and
            known["counted_by_the_device"]["trials"] == cut, "what had come by then is kept")
 
     pid_file = out + "/pid"
@@ -303,30 +295,30 @@ def map_tests(tap, out, story):
     run.send_signal(signal.SIGINT)
     run.communicate(timeout=LIMIT_S)
     with open(pid_file) as file:
-        tap.ok(is_held and run.returncode == -signal.SIGINT and not is_running(int(file.read())),
+        tap.check(is_held and run.returncode == -signal.SIGINT and not is_running(int(file.read())),
                "a second Ctrl-C does not wait for the device")
 
     run = the_map("--lose", "8")
-    tap.ok(run.returncode == 1 and "the map: 1 of 36 points never came" in run.stderr and len(table()) == 35 and
+    tap.check(run.returncode == 1 and "the map: 1 of 36 points never came" in run.stderr and len(table()) == 35 and
            record()["points_missing"] == 1, "a lost point is an error", run)
     run = the_map("--blur", "8")
-    tap.ok(run.returncode == 1 and "the map: 1 line is no point of it" in run.stderr and
+    tap.check(run.returncode == 1 and "the map: 1 line is no point of it" in run.stderr and
            "1 of 36 points never came" in run.stderr, "a damaged one too", run)
     run = the_map("--say", "quiet=12")
-    tap.ok(run.returncode == 1 and "not those that the device counted" in run.stderr and not record()["complete"],
+    tap.check(run.returncode == 1 and "not those that the device counted" in run.stderr and not record()["complete"],
            "so are counts of the device that differ", run)
     run = the_map("--cut", "10")
-    tap.ok(run.returncode == 1 and "the map was cut short: 10 of 36 points" in run.stderr and len(table()) == 10,
+    tap.check(run.returncode == 1 and "the map was cut short: 10 of 36 points" in run.stderr and len(table()) == 10,
            "a map that the device cuts short", run)
     run = the_map("--refuse", "scan")
-    tap.ok(run.returncode == 1 and "'scan N1 650 5400 6 alpha" in run.stderr and "was answered: error not-served" in run.stderr and
+    tap.check(run.returncode == 1 and "'scan N1 650 5400 6 alpha" in run.stderr and "was answered: error not-served" in run.stderr and
            record()["points"] == 0 and not names(), "a refused map", run)
     run = the_map("--die", "scan")
-    tap.ok(run.returncode == 1 and "the map: the firmware ended with exit code 3" in run.stderr, "a firmware that dies at it", run)
+    tap.check(run.returncode == 1 and "the map: the firmware ended with exit code 3" in run.stderr, "a firmware that dies at it", run)
     run = the_map("--slow", more=("--limit", "3"))
-    tap.ok(run.returncode == 0, "the limit is for each point, not for the map", run)
+    tap.check(run.returncode == 0, "the limit is for each point, not for the map", run)
     run = the_map("--mute", "scan", more=("--limit", "1"))
-    tap.ok(run.returncode == 1 and "the firmware was silent for 1 s" in run.stderr, "a firmware silent at it", run)
+    tap.check(run.returncode == 1 and "the firmware was silent for 1 s" in run.stderr, "a firmware silent at it", run)
 
 
 def run_tests(tap, folder):
@@ -338,87 +330,87 @@ def run_tests(tap, folder):
                               universal_newlines=True, timeout=LIMIT_S, env=env)
 
     run = story()
-    tap.ok(run.returncode == 0, "a story told to the end", run)
-    tap.ok("act 2: a fake brake is applied" in run.stdout and "frequency            2907 Hz" in run.stdout,
+    tap.check(run.returncode == 0, "a story told to the end", run)
+    tap.check("act 2: a fake brake is applied" in run.stdout and "frequency            2907 Hz" in run.stdout,
            "prints the device's words and verdict", run)
     with open(out + "/state.csv", newline="") as file:
         rows = list(csv.DictReader(file))
     second = [row for row in rows if row["act"] == "2"]
-    tap.ok(list(rows[0]) == "act,step,t[s],x[m],xd[m/s],y[m],yd[m/s],N[N],F[N],vr[m/s],mode,propensity".split(","), "state.csv has the act before the signals")
-    tap.ok([int(row["step"]) for row in second] == list(range(2, 2 * len(second) + 1, 2)), "and every second step of the act")
+    tap.check(list(rows[0]) == "act,step,t[s],x[m],xd[m/s],y[m],yd[m/s],N[N],F[N],vr[m/s],mode,propensity".split(","), "state.csv has the act before the signals")
+    tap.check([int(row["step"]) for row in second] == list(range(2, 2 * len(second) + 1, 2)), "and every second step of the act")
     fifth = [int(row["step"]) for row in rows if row["act"] == "5"]
-    tap.ok(fifth == list(range(4, 4 * len(fifth) + 1, 4)), "or as many as its picture needs")
+    tap.check(fifth == list(range(4, 4 * len(fifth) + 1, 4)), "or as many as its picture needs")
     with open(out + "/run.json") as file:
         record = json.load(file)
     act = record["acts"][0]
-    tap.ok(record["firmware"]["build"] == "fake" and record["board"] == "fake" and record["emulator"] is None and
+    tap.check(record["firmware"]["build"] == "fake" and record["board"] == "fake" and record["emulator"] is None and
            record["seed"] is None, "run.json names firmware and board")
-    tap.ok(act["act"] == 2 and act["title"] == "a fake brake is applied", "the act's number and its title, once each")
-    tap.ok(act["parameters_si"]["ke"] == 1 and act["parameters_si"]["load"] == "constant" and
+    tap.check(act["act"] == 2 and act["title"] == "a fake brake is applied", "the act's number and its title, once each")
+    tap.check(act["parameters_si"]["ke"] == 1 and act["parameters_si"]["load"] == "constant" and
            act["groups"] == {"C": 0.018257, "Z2": 2, "eps": None, "mu": 0.3, "V0": 0.547},
            "parameters in SI and as groups")
-    tap.ok(act["verdict"]["propensity"] == "squeal" and act["complete"] and act["samples"] == len(second) and
+    tap.check(act["verdict"]["propensity"] == "squeal" and act["complete"] and act["samples"] == len(second) and
            len(act["hash_before"]) == 8, "verdict, counters, hash")
     rate, points, frequency = sound_of(out + "/squeal.wav")
-    tap.ok(rate == 48000 and len(points) >= 24000 and abs(frequency / 2906.98 - 1) < 1e-3,
+    tap.check(rate == 48000 and len(points) >= 24000 and abs(frequency / 2906.98 - 1) < 1e-3,
            "half a second of sound or more, at its physical pitch (%.1f Hz)" % frequency)
-    tap.ok(29400 < max(points) < 29600 and min(points) > -29600, "which fills its range and does not clip")
+    tap.check(29400 < max(points) < 29600 and min(points) > -29600, "which fills its range and does not clip")
     if shutil.which("gnuplot"):
         names = ["phase-2", "phase-5", "stop-envelope"]
-        tap.ok(all(os.path.getsize("%s/%s.%s" % (out, name, kind)) > 10000 for name in names for kind in ("svg", "png")),
+        tap.check(all(os.path.getsize("%s/%s.%s" % (out, name, kind)) > 10000 for name in names for kind in ("svg", "png")),
                "the pictures", run)
-        tap.ok("stop-envelope" in run.stdout, "are in the closing list", run)
+        tap.check("stop-envelope" in run.stdout, "are in the closing list", run)
     else:
-        tap.ok("no pictures" in run.stdout, "says that there are no pictures", run)
+        tap.check("no pictures" in run.stdout, "says that there are no pictures", run)
 
     bare = folder + "/bin"
     os.mkdir(bare)
     os.symlink(shutil.which("sh"), bare + "/sh")
     shutil.rmtree(out)
     run = story(env={"PATH": bare})
-    tap.ok(run.returncode == 0 and "no pictures: gnuplot is not installed" in run.stdout and
+    tap.check(run.returncode == 0 and "no pictures: gnuplot is not installed" in run.stdout and
            sorted(os.listdir(out)) == ["run.json", "squeal.wav", "state.csv"], "without gnuplot all but the pictures", run)
 
     run = story("--emulated")
     with open(out + "/run.json") as file:
-        tap.ok(json.load(file)["emulator"].startswith("Python"), "an emulator is named by its own --version", run)
+        tap.check(json.load(file)["emulator"].startswith("Python"), "an emulator is named by its own --version", run)
     run = story("--gap")
     with open(out + "/run.json") as file:
-        tap.ok(json.load(file)["acts"][0]["samples_missing"] == 5, "gaps are recorded", run)
-    tap.ok(run.returncode == 0 and "5 samples did not fit the line" in run.stdout, "lost and counted samples are told", run)
+        tap.check(json.load(file)["acts"][0]["samples_missing"] == 5, "gaps are recorded", run)
+    tap.check(run.returncode == 0 and "5 samples did not fit the line" in run.stdout, "lost and counted samples are told", run)
     run = story("--hide")
-    tap.ok(run.returncode == 1 and "act 2: 5 samples are missing, the device counted 0" in run.stderr,
+    tap.check(run.returncode == 1 and "act 2: 5 samples are missing, the device counted 0" in run.stderr,
            "samples lost unnoticed fail", run)
     run = story("--speechless")
-    tap.ok(run.returncode == 1 and "act 2 came without a verdict" in run.stderr, "an act without a verdict fails", run)
+    tap.check(run.returncode == 1 and "act 2 came without a verdict" in run.stderr, "an act without a verdict fails", run)
     run = story("--refuse", "demo 5")
     with open(out + "/run.json") as file:
         acts = json.load(file)["acts"]
-    tap.ok(run.returncode == 1 and "'demo 5' was answered: error not-served" in run.stderr and
+    tap.check(run.returncode == 1 and "'demo 5' was answered: error not-served" in run.stderr and
            [act["complete"] for act in acts] == [True, False], "a refused act fails and is recorded as incomplete", run)
     run = story("--die", "demo 5")
-    tap.ok(run.returncode == 1 and "exit code 3 during 'demo 5': fake: the kernel image is gone" in run.stderr,
+    tap.check(run.returncode == 1 and "exit code 3 during 'demo 5': fake: the kernel image is gone" in run.stderr,
            "a firmware that dies", run)
     run = story("--mute", "demo", more=("--limit", "1", "--acts", "1"))
-    tap.ok(run.returncode == 1 and "s after 'demo 1'" in run.stderr and "was silent for" in run.stderr, "a silent firmware", run)
+    tap.check(run.returncode == 1 and "s after 'demo 1'" in run.stderr and "was silent for" in run.stderr, "a silent firmware", run)
 
     os.remove(out + "/state.csv")
     os.symlink("/dev/full", out + "/state.csv")
     run = story()
-    tap.ok(run.returncode == 1 and "state.csv: No space left on device" in run.stderr, "a full disk", run)
+    tap.check(run.returncode == 1 and "state.csv: No space left on device" in run.stderr, "a full disk", run)
     run = tool("demo", "--board", "fake", "--out", folder + "/a/b", "--", *FAKE)
-    tap.ok(run.returncode == 1 and run.stderr == "squeal: %s/a/b: No such file or directory\n" % folder,
+    tap.check(run.returncode == 1 and run.stderr == "squeal: %s/a/b: No such file or directory\n" % folder,
            "a missing folder", run)
     os.remove(out + "/state.csv")
     map_tests(tap, out, story)
     with open("/dev/full", "w") as full:
         run = subprocess.run([TOOL, "--help"], stdout=full, stderr=subprocess.PIPE, universal_newlines=True)
-    tap.ok(run.returncode == 1 and "standard output: No space left on device" in run.stderr, "a full standard output")
+    tap.check(run.returncode == 1 and "standard output: No space left on device" in run.stderr, "a full standard output")
     for acts in ("0", "6", "1,", "1;2", ""):
-        tap.ok(tool("demo", "--board", "b", "--out", out, "--acts", acts, "--", *FAKE).returncode == 2,
+        tap.check(tool("demo", "--board", "b", "--out", out, "--acts", acts, "--", *FAKE).returncode == 2,
                "usage: --acts '%s'" % acts)
     for points in ("-1", "257", "many"):
-        tap.ok(tool("demo", "--board", "b", "--out", out, "--points", points, "--", *FAKE).returncode == 2,
+        tap.check(tool("demo", "--board", "b", "--out", out, "--points", points, "--", *FAKE).returncode == 2,
                "usage: --points " + points)
 
 
@@ -428,8 +420,7 @@ def main():
         golden_tests(tap, folder)
         signal_tests(tap, folder)
         run_tests(tap, folder)
-    print("1..%d" % tap.count)
-    sys.exit(tap.failed != 0)
+    tap.finish()
 
 
 main()
