@@ -66,13 +66,18 @@ static void queue_line(struct console *console, enum line_state state)
     console->stops_waiting += state == LINE_DONE && is_stop(line) ? 1u : 0u;
 }
 
+/* Is there no place for one more of any length? */
+static bool is_full(const struct console *console)
+{
+    return console->waiting_size + LINE_LENGTH_MAX + 2u > CONSOLE_WAITING_MAX;
+}
+
 /* A line goes before the next is looked at, so that echo and answers follow each other. Only while a task or the link is
  * at work lines gather, since one of them may say stop. */
 static bool may_take(const struct console *console)
 {
     const bool is_free = console->task == CONSOLE_TASK_NONE && console->turn->holder != TURN_LINK;
-    const bool has_place =
-        is_free ? console->waiting_size == 0u : console->waiting_size + LINE_LENGTH_MAX + 2u <= CONSOLE_WAITING_MAX;
+    const bool has_place = is_free ? console->waiting_size == 0u : !is_full(console);
 
     return has_place && text_room(console->text) >= CONSOLE_ANSWER_MAX + ECHO_MAX;
 }
@@ -234,13 +239,14 @@ static bool needs_turn(const struct console *console)
     return console->task != CONSOLE_TASK_NONE && console->task != CONSOLE_TASK_STUDY;
 }
 
-/* May the next line be obeyed? A stop makes the other side end early. */
+/* May the next line be obeyed? A stop makes the other side end early. So do more lines than can wait, where the other side is
+ * stuck: a stop behind them could not be seen, and the console would be dead until somebody reads the link. */
 static bool has_turn(struct console *console)
 {
     if (console->waiting_size > 0u && turn_take(console->turn, TURN_CONSOLE)) {
         return true;
     }
-    if (console->stops_waiting > 0u) {
+    if (console->stops_waiting > 0u || (is_full(console) && console->turn->is_stuck)) {
         turn_want(console->turn, TURN_CONSOLE);
     }
     return false;

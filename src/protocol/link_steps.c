@@ -192,6 +192,7 @@ static enum link_progress go_on(struct link *link)
     struct link_steps *steps = &link->steps;
     struct executive_report report;
 
+    link->turn->is_stuck = link_has_sample(link) && !link_has_room(link);
     if (link->turn->is_wanted && !steps->was_cut) {
         steps->was_cut = true;
         executive_halt(link->executive);

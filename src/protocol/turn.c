@@ -13,6 +13,7 @@ void turn_leave(struct turn *turn, enum turn_side side)
     if (turn->holder == side) {
         turn->holder = TURN_NOBODY;
         turn->is_wanted = false;
+        turn->is_stuck = false;
     }
 }
 

@@ -15,6 +15,7 @@ enum turn_side { TURN_NOBODY, TURN_CONSOLE, TURN_LINK };
 struct turn {
     enum turn_side holder, streams, studies;
     bool is_wanted; /* the holder should end early */
+    bool is_stuck;  /* what the holder sends finds no room: its reader is slow, or has stopped */
 };
 
 /* True if the side has the turn now, or had it already. */

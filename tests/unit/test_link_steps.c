@@ -274,6 +274,36 @@ static void check_link_at_work(void)
               "for the STEP it was cut short, and says so if it is asked again");
 }
 
+/* The link has, and nobody reads its samples; the stop comes behind more lines than can wait. */
+static void check_stuck(void)
+{
+    static const char stop[] = "stop\r";
+    char lines[140u * 7u + sizeof stop];
+    size_t taken = 0u;
+    bool is_busy;
+
+    for (unsigned i = 0u; i < 140u; i++) {
+        memcpy(lines + (size_t)i * 7u, "get N0\r", 7u);
+    }
+    memcpy(lines + 140u * 7u, stop, sizeof stop);
+    open_brake();
+    say(LINK_STREAM, 1u, 0u);
+    bytes_put_u32(&fields, 1u << SIGNAL_X);
+    bytes_put_u32(&fields, 1u);
+    (void)is_answered();
+    bench_link_is_read = false;
+    say_step(2u, (uint32_t)bench.executive.sim.step, 1000000u);
+    request.size = fields.size;
+    tap_check(!bench_ask(&request, &reply, 200u) && bench.turn.is_stuck, "a STEP whose samples nobody reads is stuck");
+    bench_listen_anew();
+    for (unsigned i = 0u; i < 2000u && taken < sizeof lines - 1u; i++) {
+        taken += bench_turn(lines + taken, sizeof lines - 1u - taken, SIZE_MAX, &is_busy);
+    }
+    bench_wait(200u);
+    tap_check(bench.oks == 141u && bench_starts(bench.last, "ok stop step=") && bench.turn.holder == TURN_NOBODY,
+              "the console is not, however many lines stand before its stop");
+}
+
 void test_link_steps(void)
 {
     check_reply();
@@ -284,4 +314,5 @@ void test_link_steps(void)
     check_states();
     check_console_at_work();
     check_link_at_work();
+    check_stuck();
 }
