@@ -85,7 +85,7 @@ $(shell mkdir -p build && echo '$(BUILD_ID)' >build/build_id)
 endif
 
 # --- Rules ----------------------------------------------------------------------------------------------------------
-.PHONY: all run tool monitor console test golden oracle hil detector noise converge frames fuzz bench-link bench-link-on debug check size clean help setup setup-clang other-images host-image command
+.PHONY: all run paper tool monitor console test golden oracle hil detector noise converge frames fuzz bench-link bench-link-on debug check size clean help setup setup-clang other-images host-image command
 .DELETE_ON_ERROR:
 
 all: $(IMAGE) $(CONTROLLER) ## build the firmware and the controller of tests/hil for BOARD (default mps2-an386)
@@ -203,6 +203,8 @@ SEED       ?= 1
 COUNT      ?= 10000
 TURNS      ?= 5000
 FUZZ_FOR   ?= 60
+ONLY       ?=
+JOBS       ?= 2
 
 run: $(IMAGE) $(TOOL) ## run the demonstration and the map, results in build/run (POINTS= of the map along an axis, 0: none)
 	$(Q)$(TOOL) demo --board $(BOARD) --out build/run $(if $(POINTS),--points $(POINTS)) -- $(COMMAND)
@@ -218,6 +220,13 @@ console: $(IMAGE) ## talk to the firmware in this terminal (LINK= a path: the li
 golden: $(IMAGE) $(TOOL) ## run the cases of CASES= into OUT= (ARITH= SPP= NORMAL= METHOD= ASYMPTOTIC=1)
 	$(Q)$(TOOL) golden --cases $(CASES) --out $(OUT) --spp $(SPP) --normal $(NORMAL) --method $(METHOD) --arith $(ARITH) \
 	    $(if $(ASYMPTOTIC),--asymptotic) --jobs 2 -- $(COMMAND)
+
+# On the host unless a board is asked for: there it takes minutes, on an emulated board an hour.
+PAPER_BOARD := $(if $(filter file default,$(origin BOARD)),host,$(BOARD))
+paper: $(TOOL) ## run the whole paper on the firmware (BOARD=host here), figures, numbers, claims in build/paper (ONLY= JOBS=)
+	$(Q)$(MAKE) --no-print-directory BOARD=$(PAPER_BOARD) all
+	$(Q)$(TOOL) paper --port $(if $(filter host,$(PAPER_BOARD)),host,qemu:$(PAPER_BOARD)) --out build/paper --jobs $(JOBS) \
+	    --arith $(ARITH) --spp $(SPP) --method $(METHOD) $(if $(ONLY),--only $(ONLY))
 
 oracle: $(ORACLE) ## make golden rows for any parameters: the cases of CASES= into OUT=, by the reference solver
 	$(Q)$(ORACLE) --cases $(CASES) --out $(OUT) --jobs 2
