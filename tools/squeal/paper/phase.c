@@ -28,7 +28,7 @@ static const struct panel panels[] = {
 #define LIMIT_STICK 5e-3
 #define LIMIT_T_V10 1e-2
 
-enum { START_PERIODS = 60, WINDOW_PERIODS = 400, SHOWN_PERIODS = 100, TEXT_SIZE = 256 };
+enum { START_PERIODS = 60, WINDOW_PERIODS = 400, SHOWN_PERIODS = 100, PARTS = 4, TEXT_SIZE = 256 };
 enum { COLUMN_X, COLUMN_V };
 
 /* The reference's word for what the device calls the same: it has three words for motion without a short period. */
@@ -73,6 +73,24 @@ static void compare(struct lab *lab, const struct panel *panel, const struct lab
                     f_up);
 }
 
+/* The orbit between samples as well: x by the cubic through both ends and their velocities, and its derivative. */
+static void write_orbit(FILE *script, const struct lab_track *track)
+{
+    const double *x = track->value[COLUMN_X], *v = track->value[COLUMN_V];
+
+    (void)fputs("$orbit << END\n", script);
+    for (size_t i = 1; i < track->count; i++) {
+        const double step_s = track->t_s[i] - track->t_s[i - 1], mean = (x[i] - x[i - 1]) / step_s;
+        const double b = 6.0 * mean - 4.0 * v[i - 1] - 2.0 * v[i], a = 3.0 * (v[i - 1] + v[i]) - 6.0 * mean;
+        for (int part = 0; part < PARTS; part++) {
+            const double s = (double)part / PARTS;
+            (void)fprintf(script, "%.6g %.6g\n", x[i - 1] + step_s * s * (v[i - 1] + s * (b / 2.0 + s * a / 3.0)),
+                          v[i - 1] + s * (b + s * a));
+        }
+    }
+    (void)fprintf(script, "%.6g %.6g\nEND\n", x[track->count - 1], v[track->count - 1]);
+}
+
 static void write_strobes(struct lab *lab, FILE *script, const struct lab_track *track)
 {
     (void)fputs("$strobes << END\n", script);
@@ -87,14 +105,14 @@ static void write_strobes(struct lab *lab, FILE *script, const struct lab_track 
 static const char commands[] =
     "set title headline offset 0,1.3\nset xlabel 'displacement x  [m]'\nset ylabel 'velocity dx/dt  [m/s]'\n"
     "set format '%g'\nset xtics autofreq\nset offsets graph 0.04, graph 0.04, graph 0.06, graph 0.04\n"
+    "set arrow from graph 0, first v0 to graph 1, first v0 nohead lw 1.5 dt 2 lc rgb '" FIGURE_COLOUR_DISC "'\n"
+    "set label 'v0' at graph 1.005, first v0 tc rgb '" FIGURE_COLOUR_DISC "'\n"
     "if (has_orbit) {\n"
-    "plot v0 with lines lw 1.5 dt 2 lc rgb '" FIGURE_COLOUR_DISC "' title 'v0', "
-    "$start with lines lw 1 lc rgb '" FIGURE_COLOUR_PATH "' title 'from rest', "
-    "$orbit with lines lw 2 lc rgb '" FIGURE_COLOUR_MOTION "' title 'attractor', "
-    "$strobes with points pt 7 ps 0.6 lc rgb '#b02020' title 'each Tn'\n"
+    "plot $start with lines lw 1 lc rgb '" FIGURE_COLOUR_PATH "' title 'from rest', "
+    "$orbit with lines lw orbit_width lc rgb '" FIGURE_COLOUR_MOTION "' title 'attractor', "
+    "$strobes with points pt 7 ps strobe_size lc rgb '#b02020' title 'once a period Tn'\n"
     "} else {\n"
-    "plot v0 with lines lw 1.5 dt 2 lc rgb '" FIGURE_COLOUR_DISC "' title 'v0', "
-    "$start with lines lw 1.5 lc rgb '" FIGURE_COLOUR_MOTION "' title 'from rest'\n"
+    "plot $start with lines lw 1.5 lc rgb '" FIGURE_COLOUR_MOTION "' title 'from rest'\n"
     "}\n";
 
 /* tracks: from rest, and the end of what was measured. */
@@ -111,8 +129,14 @@ static void draw(struct lab *lab, const struct panel *panel, const struct lab_mo
     }
     (void)fprintf(script, "headline = \"Fig. %d, %s\\n{/*0.8 %s%s}\"\nv0 = %.9g\nhas_orbit = %d\n", panel->figure,
                   panel->title, class, size, lab_get(lab, "v0"), motion->is_diverging ? 0 : 1);
+    (void)fprintf(script, "orbit_width = %g\nstrobe_size = %g\n", motion->period > 0 ? 2.5 : 0.7,
+                  motion->period > 0 ? 1.6 : 0.5);
     lab_figure_block(script, "start", &tracks[0], COLUMN_X, COLUMN_V);
-    lab_figure_block(script, "orbit", &tracks[1], COLUMN_X, COLUMN_V);
+    if (motion->period > 0) {
+        write_orbit(script, &tracks[1]);
+    } else {
+        lab_figure_block(script, "orbit", &tracks[1], COLUMN_X, COLUMN_V);
+    }
     write_strobes(lab, script, &tracks[1]);
     (void)snprintf(caption, sizeof caption, "Fig. %d, %s: %s%s.", panel->figure, panel->title, motion->class, size);
     lab_figure_close(lab, script, panel->name, caption, commands);
