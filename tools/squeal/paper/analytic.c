@@ -139,7 +139,8 @@ static void write_motion(FILE *script, const struct solution *solution, const st
 }
 
 static const char motion_commands[] = COLOURS
-    "set multiplot title headline offset 0,-0.5\nset origin 0,0.47\nset size 1,0.5\nset tmargin 3\nset bmargin 1\n"
+    "set multiplot title headline offset 0,-0.5\nset origin 0,0.46\nset size 1,0.49\nset tmargin 3.5\nset bmargin 1\n"
+    "set key font ',15' maxrows 1 width -2\n"
     "set xrange [0:2]\nset format x ''\nset ylabel 'x  [m]'\nset xlabel ''\nset ytics autofreq\n"
     "set offsets 0, 0, graph 0.05, graph 0.05\n"
     "plot $motion using 1:3 with lines lw 1.5 lc rgb colour0 title name0, "
@@ -149,7 +150,7 @@ static const char motion_commands[] = COLOURS
     "set origin 0,0\nset size 1,0.47\nset tmargin 3\nset bmargin 3.5\nset format x '%g'\n"
     "set logscale y\nset format y '10^{%L}'\nset yrange [1e-7:10]\n"
     "set ylabel 'error / half range'\nset xlabel 'time  [normal periods Tn]'\n"
-    "set key at graph 1,1.02 right bottom horizontal maxrows 1 samplen 1.5 font ',14'\n"
+    "set key at graph 1,1.02 right bottom horizontal maxrows 1 samplen 1.2 font ',14' width -3\n"
     "plot for [i=0:4] $motion using 1:(column(4+2*i)) with lines lw 1.5 lc rgb value(sprintf('colour%d',i)) "
     "title value(sprintf('name%d',i))\nunset multiplot\n";
 

@@ -102,13 +102,26 @@ static void draw_ratio(struct lab *lab, const struct lab_track tracks[SETS], con
         "the printed law changes its sign and feeds the pad.",
         "set title 'Fig. 3: friction law' offset 0,1.3\nset xlabel 'slip speed vr = v0 - dx/dt  [m/s]'\n"
         "set ylabel 'friction coefficient F/P'\nset samples 1000\nset xzeroaxis lt 1 lc rgb '#606060'\n"
-        "set key at graph 0.98,0.08 right bottom vertical maxrows 4\n"
+        "set key at graph 0.3,0.02 left bottom Left reverse vertical maxrows 4\n"
         "set offsets graph 0.02, graph 0.02, graph 0.05, graph 0.05\n"
-        "plot $set0 with points pt 7 ps 0.5 lc rgb '" FIGURE_COLOUR_MOTION "' title title0, "
-        "$set1 with points pt 7 ps 0.5 lc rgb '" FIGURE_COLOUR_DISC "' title title1, "
-        "$set2 with points pt 7 ps 0.5 lc rgb '#2e7d32' title title2, "
+        "plot $set0 with points pt 7 ps 0.7 lc rgb '" FIGURE_COLOUR_MOTION "' title title0, "
+        "$set1 with points pt 7 ps 0.7 lc rgb '" FIGURE_COLOUR_DISC "' title title1, "
+        "$set2 with points pt 7 ps 0.7 lc rgb '#2e7d32' title title2, "
         "law0(x) with lines lw 1 lc rgb '#303030' title 'law as printed', "
         "law1(x) with lines lw 1 lc rgb '#303030' notitle, law2(x) with lines lw 1 lc rgb '#303030' notitle");
+}
+
+/* The law by the contact force that the device tells, where the pad slips. */
+static void write_law(FILE *script, const struct lab_track *track, const struct law *law)
+{
+    (void)fputs("$law << END\n", script);
+    for (size_t i = 0; i < track->count; i++) {
+        const double slip = track->value[COLUMN_SLIP][i];
+        if (track->value[COLUMN_MODE][i] != 0.0) {
+            (void)fprintf(script, "%.6g %.6g\n", slip, law_ratio(law, slip) * track->value[COLUMN_P][i]);
+        }
+    }
+    (void)fputs("END\n", script);
 }
 
 static void draw_force(struct lab *lab, const struct lab_track *track, const struct law *law)
@@ -116,19 +129,18 @@ static void draw_force(struct lab *lab, const struct lab_track *track, const str
     FILE *script = lab_figure_open(lab);
 
     lab_figure_block(script, "force", track, COLUMN_SLIP, COLUMN_F);
-    (void)fprintf(script, "bound(v) = %.9g*(%.9g + %.9g*abs(v))\n", most(track, COLUMN_P), law->mu_s, law->alpha);
+    write_law(script, track, law);
     lab_figure_close(
         lab, script, "fig4",
-        "Fig. 4: friction force against slip speed on the stick-slip orbit of Fig. 5, N = 5 N. The contact force "
+        "Fig. 4: friction force against slip speed on the stick-slip orbit of Fig. 5, N = 5 N. The contact force P "
         "swings "
-        "between 0 and 2 N, so the force fills what lies between the bounds; at vr = 0 it is whatever keeps the pad on "
-        "the disc.",
+        "between 0 and twice N, so the force is a loop and not a line; at vr = 0 it is whatever keeps the pad on the "
+        "disc.",
         "set title 'Fig. 4: friction force, N = 5 N' offset 0,1.3\nset xlabel 'slip speed vr = v0 - dx/dt  [m/s]'\n"
         "set ylabel 'friction force on the pad F  [N]'\nset xzeroaxis lt 1 lc rgb '#606060'\n"
         "set offsets graph 0.05, graph 0.05, graph 0.08, graph 0.08\n"
         "plot $force with lines lw 2 lc rgb '" FIGURE_COLOUR_MOTION "' title 'device', "
-        "x > 0 ? bound(x) : NaN with lines lw 1.5 dt 2 lc rgb '" FIGURE_COLOUR_DISC "' title 'law at greatest P', "
-        "x < 0 ? -bound(x) : NaN with lines lw 1.5 dt 2 lc rgb '" FIGURE_COLOUR_DISC "' notitle");
+        "$law with points pt 6 ps 1.2 lc rgb '" FIGURE_COLOUR_DISC "' title 'law, mu(vr) P'");
 }
 
 void experiment_friction(struct lab *lab)

@@ -103,6 +103,7 @@ static bool read_options(const struct arguments *arguments, struct paper_options
     options->arith = text_or(arguments, "--arith", "f32");
     options->spp = text_or(arguments, "--spp", "64");
     options->is_small = arguments_flag(arguments, "--small");
+    options->is_part = arguments_text(arguments, "--only") != NULL;
     options->limit_s = 60.0;
     jobs = is_started_here(options->port) ? 2 : 1;
     options->out = arguments_need(arguments, "--out");
@@ -183,7 +184,9 @@ static int tell(const struct page *page, double took_s)
     printf("claims    %zu hold, %zu in part, %zu refuted, %zu not judged\n", score->claims[PAPER_HOLDS],
            score->claims[PAPER_IN_PART], score->claims[PAPER_REFUTED], score->claims[PAPER_NOT_JUDGED]);
     printf("time      %.0f s\n%s/index.html\n", took_s, page->options->out);
-    return score->off == 0 && score->failed == 0 ? EXIT_OK : EXIT_FAILED;
+    return score->off == 0 && score->failed == 0 && (page->options->is_part || score->claims[PAPER_NOT_JUDGED] == 0)
+               ? EXIT_OK
+               : EXIT_FAILED;
 }
 
 static int make_page(const struct paper_options *options, struct record *records, FILE *files[])

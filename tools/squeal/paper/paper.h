@@ -19,6 +19,7 @@ struct paper_options {
     const char *line;                          /* the command line, for the page */
     const struct csv *reference;               /* the golden table */
     bool is_small;                             /* a look at everything in a few seconds */
+    bool is_part;                              /* not all experiments are wanted, so that claims stay unjudged */
     double limit_s;                            /* for one answer of the device */
     unsigned jobs;                             /* experiments at a time */
 };

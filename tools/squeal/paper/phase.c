@@ -109,15 +109,15 @@ static const char commands[] =
     "set label 'v0' at graph 1.005, first v0 tc rgb '" FIGURE_COLOUR_DISC "'\n"
     "if (has_orbit) {\n"
     "plot $start with lines lw 1 lc rgb '" FIGURE_COLOUR_PATH "' title 'from rest', "
-    "$orbit with lines lw orbit_width lc rgb '" FIGURE_COLOUR_MOTION "' title 'attractor', "
+    "$orbit with lines lw orbit_width lc rgb orbit_colour title 'attractor', "
     "$strobes with points pt 7 ps strobe_size lc rgb '#b02020' title 'once a period Tn'\n"
     "} else {\n"
     "plot $start with lines lw 1.5 lc rgb '" FIGURE_COLOUR_MOTION "' title 'from rest'\n"
     "}\n";
 
-/* tracks: from rest, and the end of what was measured. */
+/* tracks: from rest, and the end of what was measured, which is whole. */
 static void draw(struct lab *lab, const struct panel *panel, const struct lab_motion *motion,
-                 const struct lab_track tracks[2])
+                 const struct lab_track tracks[2], const struct lab_track *whole)
 {
     char caption[TEXT_SIZE], class[LAB_CLASS_MAX], size[TEXT_SIZE] = "";
     FILE *script = lab_figure_open(lab);
@@ -129,15 +129,16 @@ static void draw(struct lab *lab, const struct panel *panel, const struct lab_mo
     }
     (void)fprintf(script, "headline = \"Fig. %d, %s\\n{/*0.8 %s%s}\"\nv0 = %.9g\nhas_orbit = %d\n", panel->figure,
                   panel->title, class, size, lab_get(lab, "v0"), motion->is_diverging ? 0 : 1);
-    (void)fprintf(script, "orbit_width = %g\nstrobe_size = %g\n", motion->period > 0 ? 2.5 : 0.7,
-                  motion->period > 0 ? 1.6 : 0.5);
+    /* Many turns of a torus are drawn finer, so that the strobes are seen on them. */
+    (void)fprintf(script, "orbit_width = %g\nstrobe_size = %g\norbit_colour = '%s'\n", motion->period > 0 ? 2.5 : 0.6,
+                  motion->period > 0 ? 1.6 : 0.7, motion->period > 0 ? FIGURE_COLOUR_MOTION : "#7f9fc4");
     lab_figure_block(script, "start", &tracks[0], COLUMN_X, COLUMN_V);
     if (motion->period > 0) {
         write_orbit(script, &tracks[1]);
     } else {
         lab_figure_block(script, "orbit", &tracks[1], COLUMN_X, COLUMN_V);
     }
-    write_strobes(lab, script, &tracks[1]);
+    write_strobes(lab, script, whole);
     (void)snprintf(caption, sizeof caption, "Fig. %d, %s: %s%s.", panel->figure, panel->title, motion->class, size);
     lab_figure_close(lab, script, panel->name, caption, commands);
 }
@@ -156,13 +157,19 @@ static void run_panel(struct lab *lab, const struct panel *panel)
     const unsigned shown = motion.period > 0 ? motion.period : SHOWN_PERIODS;
     const size_t samples = (size_t)shown * lab_steps_per_period(lab) + 1;
     tracks[1] = lab_part(&track, track.count > samples ? track.count - samples : 0);
-    draw(lab, panel, &motion, tracks);
+    draw(lab, panel, &motion, tracks, &track);
     compare(lab, panel, &motion);
     lab_csv_tracks(lab, panel->name, tracks, 2);
 }
 
 static void run_panels(struct lab *lab, int figure)
 {
+    lab_note(
+        lab,
+        "Faint: the first %d normal periods from rest. Strong: the attractor, its period or the last %d. Red: once a "
+        "normal period. Numbers are taken over %d periods after as many as the reference waited; the device has the "
+        "word aperiodic for what the reference calls quasi-periodic, long-period or beating.",
+        START_PERIODS, SHOWN_PERIODS, WINDOW_PERIODS);
     for (size_t i = 0; i < sizeof panels / sizeof panels[0]; i++) {
         if (panels[i].figure == figure && (panels[i].is_small || !lab_options(lab)->is_small)) {
             run_panel(lab, &panels[i]);
