@@ -204,7 +204,6 @@ COUNT      ?= 10000
 TURNS      ?= 5000
 FUZZ_FOR   ?= 60
 ONLY       ?=
-JOBS       ?= 2
 
 run: $(IMAGE) $(TOOL) ## run the demonstration and the map, results in build/run (POINTS= of the map along an axis, 0: none)
 	$(Q)$(TOOL) demo --board $(BOARD) --out build/run $(if $(POINTS),--points $(POINTS)) -- $(COMMAND)
@@ -221,12 +220,13 @@ golden: $(IMAGE) $(TOOL) ## run the cases of CASES= into OUT= (ARITH= SPP= NORMA
 	$(Q)$(TOOL) golden --cases $(CASES) --out $(OUT) --spp $(SPP) --normal $(NORMAL) --method $(METHOD) --arith $(ARITH) \
 	    $(if $(ASYMPTOTIC),--asymptotic) --jobs 2 -- $(COMMAND)
 
-# On the host unless a board is asked for: there it takes minutes, on an emulated board an hour.
+# On the host unless a board is asked for: on an emulated one it takes an hour.
 PAPER_BOARD := $(if $(filter file default,$(origin BOARD)),host,$(BOARD))
-paper: $(TOOL) ## run the whole paper on the firmware (BOARD=host here), figures, numbers, claims in build/paper (ONLY= JOBS=)
+paper: $(TOOL) ## run the whole paper on the firmware, on BOARD=host unless told: figures, numbers, claims in build/paper (ONLY=)
 	$(Q)$(MAKE) --no-print-directory BOARD=$(PAPER_BOARD) all
-	$(Q)$(TOOL) paper --port $(if $(filter host,$(PAPER_BOARD)),host,qemu:$(PAPER_BOARD)) --out build/paper --jobs $(JOBS) \
-	    --arith $(ARITH) --spp $(SPP) --method $(METHOD) $(if $(ONLY),--only $(ONLY))
+	$(Q)$(TOOL) paper --port $(if $(filter host,$(PAPER_BOARD)),host,qemu:$(PAPER_BOARD)) --out build/paper --limit 60 \
+	    --arith $(ARITH) --spp $(SPP) --method $(METHOD) $(if $(filter file,$(origin NORMAL)),,--normal $(NORMAL)) \
+	    $(if $(ONLY),--only $(ONLY))
 
 oracle: $(ORACLE) ## make golden rows for any parameters: the cases of CASES= into OUT=, by the reference solver
 	$(Q)$(ORACLE) --cases $(CASES) --out $(OUT) --jobs 2

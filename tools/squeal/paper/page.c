@@ -1,67 +1,10 @@
-/* The page: one file that needs no other, and no network. */
+/* The page: one file that needs no other, and no network. The records item by item, in their order. */
 #include "squeal/paper/page.h"
 
 #include "squeal/paper/page_parts.h"
 
 #include <stdlib.h>
 #include <string.h>
-
-static const char style[] =
-    "body{font:16px/1.5 Georgia,'DejaVu Serif',serif;color:#1c2430;background:#fff;max-width:76rem;margin:2rem "
-    "auto;padding:0 1.5rem}\n"
-    "h1,h2,h3,table,figcaption,.verdict,nav{font-family:Helvetica,Arial,'DejaVu Sans',sans-serif}\n"
-    "h1{font-size:1.9rem;margin:0 0 .3rem}h2{font-size:1.35rem;margin:3rem 0 .6rem;border-bottom:2px solid "
-    "#1f4e79;padding-bottom:.2rem}h3{font-size:1.05rem;margin:1.5rem 0 .4rem}\n"
-    "a{color:#1f4e79}nav ol{columns:2;font-size:.92rem;padding-left:1.4rem}\n"
-    ".block{display:flex;gap:1.6rem;align-items:flex-start;margin:1.2rem 0 2rem}\n"
-    "figure{margin:0;flex:0 0 36rem;max-width:100%}figure svg{width:100%;height:auto;display:block}\n"
-    "figcaption{font-size:.85rem;color:#4a5666}.side{flex:1;min-width:18rem}\n"
-    "table{border-collapse:collapse;font-size:.85rem;font-variant-numeric:tabular-nums;margin:.3rem 0 1rem}\n"
-    "th,td{padding:.18rem .55rem;text-align:right;border-bottom:1px solid "
-    "#e3e7ec;vertical-align:top}th{color:#4a5666;font-weight:600}\n"
-    "th.t,td.t{text-align:left}tr.off td{background:#f9dede;color:#8c1010;font-weight:700}\n"
-    "td.subject{font-weight:600;text-align:left;padding-top:.7rem}\n"
-    ".claim{border-left:5px solid #888;padding:.5rem .9rem;margin:.8rem 0;background:#f6f8fa}\n"
-    ".claim p{margin:.15rem "
-    "0}.verdict{font-weight:700;text-transform:uppercase;font-size:.78rem;letter-spacing:.04em}\n"
-    ".v0{border-color:#2e7d32}.v1{border-color:#b26a00}.v2{border-color:#b02020}\n"
-    ".v0 .verdict{color:#2e7d32}.v1 .verdict{color:#b26a00}.v2 .verdict{color:#b02020}\n"
-    ".failure{background:#f9dede;color:#8c1010;padding:.6rem .9rem;font-weight:700}\n"
-    ".score{font-size:1.1rem}.bad{color:#b02020;font-weight:700}\n"
-    "@media(max-width:60rem){.block{display:block}nav ol{columns:1}}\n"
-    "@media "
-    "print{body{max-width:none;margin:0;font-size:11px}.block,.claim,figure{break-inside:avoid}figure{flex-basis:"
-    "55%}a{color:inherit;text-decoration:none}}\n";
-
-void page_escape(FILE *file, const char *text)
-{
-    for (; *text != '\0'; text++) {
-        switch (*text) {
-        case '&':
-            (void)fputs("&amp;", file);
-            break;
-        case '<':
-            (void)fputs("&lt;", file);
-            break;
-        case '>':
-            (void)fputs("&gt;", file);
-            break;
-        case '"':
-            (void)fputs("&quot;", file);
-            break;
-        default:
-            (void)fputc(*text, file);
-        }
-    }
-}
-
-/* A text between two pieces of markup. */
-static void put(FILE *file, const char *before, const char *text, const char *after)
-{
-    (void)fputs(before, file);
-    page_escape(file, text);
-    (void)fputs(after, file);
-}
 
 /* --- Parts of a section -------------------------------------------------------------------------------------------- */
 
@@ -95,11 +38,11 @@ static void write_figure(struct writing *writing, const struct record_item *item
     const char *name = item->field[0];
 
     block_end(writing);
-    put(writing->file, "<div class=block><figure id=\"", name, "\">\n");
+    page_put(writing->file, "<div class=block><figure id=\"", name, "\">\n");
     page_copy_svg(writing->file, writing->page->options->out, name);
-    put(writing->file, "<figcaption>", item->field[1], "");
-    put(writing->file, " (<a href=\"", name, ".svg\">SVG</a>,");
-    put(writing->file, " <a href=\"", name, ".png\">PNG</a>)</figcaption></figure><div class=side>\n");
+    page_put(writing->file, "<figcaption>", item->field[1], "");
+    page_put(writing->file, " (<a href=\"", name, ".svg\">SVG</a>,");
+    page_put(writing->file, " <a href=\"", name, ".png\">PNG</a>)</figcaption></figure><div class=side>\n");
     writing->has_block = true;
 }
 
@@ -115,16 +58,16 @@ static void write_number(struct writing *writing, const struct record_item *item
         writing->subject = "";
     }
     if (strcmp(writing->subject, field[0]) != 0) {
-        put(writing->file, "<tr><td class=subject colspan=6>", field[0], "</td></tr>\n");
+        page_put(writing->file, "<tr><td class=subject colspan=6>", field[0], "</td></tr>\n");
         writing->subject = field[0];
     }
     (void)fputs(strcmp(field[6], "OFF") == 0 ? "<tr class=off>" : "<tr>", writing->file);
-    put(writing->file, "<td class=t>", field[1], "</td>");
-    put(writing->file, "<td>", field[2], "</td>");
-    put(writing->file, "<td class=t>", strcmp(field[3], "1") == 0 ? "" : field[3], "</td>");
-    put(writing->file, "<td>", field[4], "</td>");
-    put(writing->file, "<td>", field[5], "</td>");
-    put(writing->file, "<td class=t>", field[6], "</td></tr>\n");
+    page_put(writing->file, "<td class=t>", field[1], "</td>");
+    page_put(writing->file, "<td>", field[2], "</td>");
+    page_put(writing->file, "<td class=t>", strcmp(field[3], "1") == 0 ? "" : field[3], "</td>");
+    page_put(writing->file, "<td>", field[4], "</td>");
+    page_put(writing->file, "<td>", field[5], "</td>");
+    page_put(writing->file, "<td class=t>", field[6], "</td></tr>\n");
 }
 
 static void write_claim(struct writing *writing, const struct record_item *item)
@@ -134,10 +77,10 @@ static void write_claim(struct writing *writing, const struct record_item *item)
 
     table_end(writing);
     (void)fprintf(writing->file, "<div class=\"claim v%d\" id=\"claim-%s\">", (int)verdict, claim->id);
-    put(writing->file, "<p><span class=verdict>", paper_verdict_name(verdict), "</span> ");
-    put(writing->file, "", claim->claim, "</p>");
-    put(writing->file, "<p>Paper: ", claim->paper, "</p>");
-    put(writing->file, "<p>Measured: ", item->field[3], "</p></div>\n");
+    page_put(writing->file, "<p><span class=verdict>", paper_verdict_name(verdict), "</span> ");
+    page_put(writing->file, "", claim->claim, "</p>");
+    page_put(writing->file, "<p>Paper: ", claim->paper, "</p>");
+    page_put(writing->file, "<p>Measured: ", item->field[3], "</p></div>\n");
 }
 
 static void write_item(struct writing *writing, const struct record_item *item)
@@ -154,16 +97,16 @@ static void write_item(struct writing *writing, const struct record_item *item)
         break;
     case RECORD_NOTE:
         table_end(writing);
-        put(writing->file, "<p>", item->field[0], "</p>\n");
+        page_put(writing->file, "<p>", item->field[0], "</p>\n");
         break;
     case RECORD_DATA:
         table_end(writing);
-        put(writing->file, "<p>Data: <a href=\"", item->field[0], ".csv\">");
-        put(writing->file, "", item->field[0], ".csv</a></p>\n");
+        page_put(writing->file, "<p>Data: <a href=\"", item->field[0], ".csv\">");
+        page_put(writing->file, "", item->field[0], ".csv</a></p>\n");
         break;
     case RECORD_FAILURE:
         block_end(writing);
-        put(writing->file, "<p class=failure>Failed: ", item->field[0], "</p>\n");
+        page_put(writing->file, "<p class=failure>Failed: ", item->field[0], "</p>\n");
         break;
     case RECORD_DEVICE:
     case RECORD_KINDS:
@@ -176,112 +119,13 @@ static void write_section(const struct page *page, FILE *file, size_t index)
 {
     struct writing writing = {.page = page, .file = file};
 
-    put(file, "<section id=\"", paper_experiments[index].id, "\"><h2>");
-    put(file, "", paper_experiments[index].title, "</h2>\n");
+    page_put(file, "<section id=\"", paper_experiments[index].id, "\"><h2>");
+    page_put(file, "", paper_experiments[index].title, "</h2>\n");
     for (size_t i = 0; i < page->records[index].count; i++) {
         write_item(&writing, &page->records[index].items[i]);
     }
     block_end(&writing);
     (void)fputs("</section>\n", file);
-}
-
-/* --- Head ---------------------------------------------------------------------------------------------------------- */
-
-/* Board and build, as the first device said it. */
-static void write_device(const struct page *page, FILE *file)
-{
-    for (size_t i = 0; i < paper_experiment_count; i++) {
-        const struct record *record = &page->records[i];
-        if (record->count > 0 && record->items[0].kind == RECORD_DEVICE) {
-            put(file, "<tr><td class=t>board</td><td class=t>", record->items[0].field[0], "</td></tr>\n");
-            put(file, "<tr><td class=t>firmware</td><td class=t>", record->items[0].field[1], "</td></tr>\n");
-            return;
-        }
-    }
-}
-
-static void write_made(const struct page *page, FILE *file)
-{
-    const struct paper_options *options = page->options;
-
-    (void)fputs("<table>\n", file);
-    write_device(page, file);
-    put(file, "<tr><td class=t>number format</td><td class=t>", options->arith, "</td></tr>\n");
-    put(file, "<tr><td class=t>method</td><td class=t>", options->method, ", ");
-    put(file, "normal direction ", options->normal, ", ");
-    put(file, "", options->spp, " steps a normal period, where nothing else is said</td></tr>\n");
-    put(file, "<tr><td class=t>made by</td><td class=t><code>", options->line, "</code></td></tr>\n</table>\n");
-}
-
-static void write_off(const struct page *page, FILE *file)
-{
-    for (size_t i = 0; i < paper_experiment_count; i++) {
-        for (const struct record_item *item = page->records[i].items;
-             item < page->records[i].items + page->records[i].count; item++) {
-            if (item->kind == RECORD_FAILURE) {
-                put(file, "<p class=failure>", paper_experiments[i].id, " failed: ");
-                put(file, "", item->field[0], "</p>\n");
-            } else if (item->kind == RECORD_NUMBER && strcmp(item->field[6], "OFF") == 0) {
-                put(file, "<p class=bad>OFF: <a href=\"#", paper_experiments[i].id, "\">");
-                put(file, "", item->field[0], "</a>, ");
-                put(file, "", item->field[1], ": ");
-                put(file, "", item->field[2], ", ");
-                put(file, "reference ", item->field[4], "</p>\n");
-            }
-        }
-    }
-}
-
-static void write_claims(const struct page *page, FILE *file)
-{
-    (void)fputs("<h2 id=\"claims\">The claims</h2>\n<table><tr><th class=t>claim</th><th class=t>paper</th>"
-                "<th class=t>measured</th><th class=t>verdict</th></tr>\n",
-                file);
-    for (size_t i = 0; i < paper_claim_count; i++) {
-        const struct page_claim *found = &page->claims[i];
-        (void)fprintf(file, "<tr class=v%d>", (int)found->verdict);
-        put(file, "<td class=t>", paper_claims[i].claim, "</td>");
-        put(file, "<td class=t>", paper_claims[i].paper, "</td>");
-        put(file, "<td class=t>", found->measured, "</td><td class=t><span class=verdict>");
-        if (found->verdict == PAPER_NOT_JUDGED) {
-            put(file, "", paper_verdict_name(found->verdict), "</span></td></tr>\n");
-        } else {
-            put(file, "<a href=\"#", found->figure[0] != '\0' ? found->figure : "claims", "\">");
-            put(file, "", paper_verdict_name(found->verdict), "</a></span></td></tr>\n");
-        }
-    }
-    (void)fputs("</table>\n", file);
-}
-
-static void write_head(const struct page *page, FILE *file)
-{
-    const struct page_score *score = &page->score;
-
-    (void)fprintf(file,
-                  "<!DOCTYPE html>\n<html lang=en><head><meta charset=utf-8><meta name=viewport "
-                  "content=\"width=device-width\"><title>The paper, reproduced</title>\n<style>\n%s</style></head>"
-                  "<body>\n<h1>The paper, reproduced</h1>\n"
-                  "<p>Every figure of the brake-squeal paper, run again on the firmware through its own interface. "
-                  "Numbers stand beside the reference solution, claims beside their verdict.</p>\n",
-                  style);
-    (void)fprintf(file,
-                  "<p class=score><b>%zu</b> of %zu numbers agree with the reference%s. Of %zu claims <b>%zu</b> "
-                  "hold, <b>%zu</b> in part, <b>%zu</b> are refuted%s.</p>\n",
-                  score->agree, score->agree + score->off,
-                  score->off > 0 ? ", <span class=bad>the others are OFF</span>" : "", paper_claim_count,
-                  score->claims[PAPER_HOLDS], score->claims[PAPER_IN_PART], score->claims[PAPER_REFUTED],
-                  score->claims[PAPER_NOT_JUDGED] > 0 ? ", <span class=bad>the others were not judged</span>" : "");
-    write_off(page, file);
-    write_made(page, file);
-    (void)fputs("<nav><ol>\n<li><a href=\"#claims\">The claims</a></li>\n", file);
-    for (size_t i = 0; i < paper_experiment_count; i++) {
-        if (paper_experiments[i].is_wanted) {
-            put(file, "<li><a href=\"#", paper_experiments[i].id, "\">");
-            put(file, "", paper_experiments[i].title, "</a></li>\n");
-        }
-    }
-    (void)fputs("</ol></nav>\n", file);
-    write_claims(page, file);
 }
 
 bool page_write(const struct page *page, char problem[CSV_PROBLEM_MAX])
@@ -293,7 +137,7 @@ bool page_write(const struct page *page, char problem[CSV_PROBLEM_MAX])
     if (file == NULL) {
         return false;
     }
-    write_head(page, file);
+    page_write_head(page, file);
     for (size_t i = 0; i < paper_experiment_count; i++) {
         if (paper_experiments[i].is_wanted) {
             write_section(page, file, i);

@@ -1,7 +1,7 @@
 /* The subcommand paper: options, the experiments, the page, and what is to be said of it. */
 #include "squeal/paper/paper.h"
 
-#include "squeal/exits.h"
+#include "squeal/commands/linked.h"
 #include "squeal/paper/lab.h"
 #include "squeal/paper/page.h"
 #include "squeal/plot/figure.h"
@@ -94,9 +94,8 @@ static bool is_started_here(const char *port)
 static bool read_options(const struct arguments *arguments, struct paper_options *options)
 {
     const char *port = text_or(arguments, "--port", getenv("SQUEAL_PORT"));
-    uint64_t jobs = 2;
 
-    options->port = port != NULL && port[0] != '\0' ? port : "host";
+    options->port = port != NULL ? port : ""; /* that there is none is told when it is opened */
     options->method = text_or(arguments, "--method", "event");
     /* The naive method goes with all four states by RK4 only. */
     options->normal = text_or(arguments, "--normal", strcmp(options->method, "naive") == 0 ? "rk4" : "exact");
@@ -104,8 +103,8 @@ static bool read_options(const struct arguments *arguments, struct paper_options
     options->spp = text_or(arguments, "--spp", "64");
     options->is_small = arguments_flag(arguments, "--small");
     options->is_part = arguments_text(arguments, "--only") != NULL;
-    options->limit_s = 60.0;
-    jobs = is_started_here(options->port) ? 2 : 1;
+    options->limit_s = 5.0;
+    uint64_t jobs = is_started_here(options->port) ? 2 : 1;
     options->out = arguments_need(arguments, "--out");
     if (options->out == NULL || !arguments_has_operands(arguments, 0, 0) ||
         !arguments_whole(arguments, "--jobs", 1, PAPER_JOBS_MAX, &jobs) ||
@@ -230,11 +229,24 @@ static int run(const struct paper_options *options)
     return code;
 }
 
+static int run_with_reference(struct paper_options *options, const char *path)
+{
+    char problem[CSV_PROBLEM_MAX];
+    struct csv reference;
+
+    if (!csv_read(&reference, path, problem)) {
+        return fail(problem);
+    }
+    options->reference = &reference;
+    const int code = prepare_folder(options->out, problem) ? run(options) : fail(problem);
+    csv_free(&reference);
+    return code;
+}
+
 int command_paper(const struct arguments *arguments)
 {
-    char problem[CSV_PROBLEM_MAX], line[LINE_SIZE];
+    char line[LINE_SIZE];
     struct paper_options options = {0};
-    struct csv reference;
 
     if (!read_options(arguments, &options)) {
         return EXIT_USAGE;
@@ -244,12 +256,12 @@ int command_paper(const struct arguments *arguments)
     if (!figure_is_possible()) {
         return fail("the pictures need gnuplot; tools/setup tells how to get it");
     }
-    if (!csv_read(&reference, text_or(arguments, "--reference", "tests/golden/paper.csv"), problem) ||
-        !prepare_folder(options.out, problem)) {
-        return fail(problem);
+    /* Whoever is at the port is asked once before everything starts. */
+    struct device *device;
+    const int code = linked_open(arguments, &device);
+    if (code != EXIT_OK) {
+        return code;
     }
-    options.reference = &reference;
-    const int code = run(&options);
-    csv_free(&reference);
-    return code;
+    device_close(device);
+    return run_with_reference(&options, text_or(arguments, "--reference", "tests/golden/paper.csv"));
 }
