@@ -16,13 +16,15 @@ const char *lab_reference_text(struct lab *lab, const char *name, const char *co
 {
     const struct csv *table = lab->options->reference;
     const int names = csv_column(table, "case"), wanted = csv_column(table, column);
+    size_t row = 0;
 
-    for (size_t row = 0; row < table->rows && names >= 0 && wanted >= 0; row++) {
-        if (strcmp(csv_cell(table, row, names), name) == 0) {
-            return csv_cell(table, row, wanted);
-        }
+    while (row < table->rows && strcmp(csv_cell(table, row, names), name) != 0) {
+        row++;
     }
-    lab_fail(lab, "the reference table has no %s of the case %s", column, name);
+    if (row == table->rows || wanted < 0) {
+        lab_fail(lab, "the reference table has no %s", wanted < 0 ? column : name);
+    }
+    return csv_cell(table, row, wanted);
 }
 
 double lab_reference(struct lab *lab, const char *name, const char *column)

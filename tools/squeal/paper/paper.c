@@ -238,7 +238,10 @@ static int run_with_reference(struct paper_options *options, const char *path)
         return fail(problem);
     }
     options->reference = &reference;
-    const int code = prepare_folder(options->out, problem) ? run(options) : fail(problem);
+    bool is_well = csv_column(&reference, "case") >= 0;
+    (void)snprintf(problem, sizeof problem, "%.160s: no column case", path);
+    is_well = is_well && prepare_folder(options->out, problem);
+    const int code = is_well ? run(options) : fail(problem);
     csv_free(&reference);
     return code;
 }
