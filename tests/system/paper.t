@@ -186,13 +186,32 @@ run = paper("--out", "lost", "--only", "fig6,analytic", "--limit", "2", env={"SQ
 tap.check(run.returncode == FAILED and "FAILED fig6: host: " in run.stdout and "Failed: host: " in read(folder + "/lost/index.html").decode(),
           "a firmware that ends too soon", run)
 
-run = subprocess.Popen([TOOL, "paper", "--reference", REFERENCE, "--port", "host", "--out", "cut"], stdout=subprocess.PIPE,
-                       stderr=subprocess.PIPE, stdin=subprocess.DEVNULL, cwd=folder, env=environment, start_new_session=True)
-time.sleep(1.5)
+
+def begun(*arguments):
+    """A run under way, in a session of its own."""
+    run = subprocess.Popen([TOOL, "paper", "--reference", REFERENCE, "--port", "host", "--out", "cut", *arguments],
+                           stdout=subprocess.PIPE, stderr=subprocess.PIPE, stdin=subprocess.DEVNULL, universal_newlines=True,
+                           cwd=folder, env=environment, start_new_session=True)
+    time.sleep(1.5)
+    return run
+
+
+run = begun("--only", "fig6")
+for child in subprocess.run(["ps", "-o", "pid=", "--ppid", str(run.pid)], stdout=subprocess.PIPE, universal_newlines=True).stdout.split():
+    os.kill(int(child), signal.SIGKILL)
+output = run.communicate(timeout=LIMIT_S)[0]
+tap.check(run.returncode == FAILED and "FAILED fig6: its process was ended by signal 9" in output, "an experiment that is killed", output)
+
+run = begun()
 run.send_signal(signal.SIGINT)
 run.communicate(timeout=LIMIT_S)
-left = subprocess.run(["ps", "-o", "pid=,args=", "-s", str(run.pid)], stdout=subprocess.PIPE, universal_newlines=True).stdout
-tap.check(run.returncode == -signal.SIGINT and left.strip() == "", "Ctrl-C ends all of it", str(run.returncode), left)
+ended_s = time.monotonic()
+left = ["?"]
+while left and time.monotonic() - ended_s < 10:  # gnuplot ends when it has no more to read
+    states = subprocess.run(["ps", "-o", "stat=,pid=,args=", "-s", str(run.pid)], stdout=subprocess.PIPE, universal_newlines=True).stdout
+    left = [line for line in states.splitlines() if not line.startswith("Z")]
+    time.sleep(0.1)
+tap.check(run.returncode == -signal.SIGINT and not left, "Ctrl-C ends all of it", str(run.returncode), *left)
 tap.check(os.listdir(environment["TMPDIR"]) == [], "nothing is left behind", str(os.listdir(environment["TMPDIR"])))
 
 shutil.rmtree(folder)
