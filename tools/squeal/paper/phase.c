@@ -29,7 +29,7 @@ static const struct panel panels[] = {
 #define LIMIT_T_V10 1e-2
 
 enum { START_PERIODS = 60, WINDOW_PERIODS = 400, SHOWN_PERIODS = 100, PARTS = 4, TEXT_SIZE = 256 };
-enum { COLUMN_X, COLUMN_V };
+enum { COLUMN_X, COLUMN_V, COLUMN_MODE };
 
 /* The reference's word for what the device calls the same: it has three words for motion without a short period. */
 static const char *class_expected(const char *reference)
@@ -73,16 +73,19 @@ static void compare(struct lab *lab, const struct panel *panel, const struct lab
                     f_up);
 }
 
-/* The orbit between samples as well: x by the cubic through both ends and their velocities, and its derivative. */
+/* The orbit between samples as well: x by the cubic through both ends and their velocities, and its derivative; not where
+ * the pad begins or ends to stick in between, since its velocity has a kink there. */
 static void write_orbit(FILE *script, const struct lab_track *track)
 {
     const double *x = track->value[COLUMN_X], *v = track->value[COLUMN_V];
+    const double *mode = track->value[COLUMN_MODE];
 
     (void)fputs("$orbit << END\n", script);
     for (size_t i = 1; i < track->count; i++) {
         const double step_s = track->t_s[i] - track->t_s[i - 1], mean = (x[i] - x[i - 1]) / step_s;
         const double b = 6.0 * mean - 4.0 * v[i - 1] - 2.0 * v[i], a = 3.0 * (v[i - 1] + v[i]) - 6.0 * mean;
-        for (int part = 0; part < PARTS; part++) {
+        const int parts = mode[i] == mode[i - 1] ? PARTS : 1;
+        for (int part = 0; part < parts; part++) {
             const double s = (double)part / PARTS;
             (void)fprintf(script, "%.6g %.6g\n", x[i - 1] + step_s * s * (v[i - 1] + s * (b / 2.0 + s * a / 3.0)),
                           v[i - 1] + s * (b + s * a));
