@@ -225,7 +225,7 @@ static void run_normal(struct lab *lab)
         "where the pad is.",
         "set title 'Eq. 9: normal displacement from rest' offset 0,1.3\nset xlabel 'time  [normal periods "
         "Tn]'\nset ylabel 'normal displacement y  [m]'\nset xrange [0:2]\nset samples 400\n"
-        "set offsets 0, 0, graph 0.06, graph 0.06\n"
+        "set offsets 0, 0, graph 0.06, graph 0.06\nset key font ',16' width -2\n"
         "plot size*(1-sin(2*pi*x)) with lines lw 2 lc rgb '#b02020' title '1 - sin, as printed', "
         "size*(1-cos(2*pi*x)) with lines lw 2 lc rgb '" FIGURE_COLOUR_MOTION "' title '1 - cos', "
         "$normal using 1:2 every 2 with points pt 6 ps 0.7 lc rgb '#000000' title 'device'");
