@@ -6,7 +6,6 @@
 #include "squeal/plot/figure.h"
 
 #include <math.h>
-#include <string.h>
 
 enum { PERIODS = 10, SHOWN_PERIODS = 2, SPP = 256, TEXT_SIZE = 512 };
 
@@ -107,9 +106,6 @@ static struct lab_track run_on_orbit(struct lab *lab, struct solution *solution,
 
     lab_preset(lab, "table1");
     lab_set(lab, assignments);
-    if (strcmp(lab_options(lab)->method, "event") == 0) {
-        lab_set(lab, "normal exact");
-    }
     lab_set(lab, "spp 256");
     solution_read(lab, solution);
     const struct perturbation_state state = perturbation_forced(&solution->forms[FORM_ORDER_2], 0);
