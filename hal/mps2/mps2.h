@@ -1,5 +1,5 @@
 /* What the FPGA images of the Arm MPS2 board have in common: 25 MHz, addresses and interrupt lines. Application notes
- * DAI 0385 and DAI 0386, memory map and interrupt table. */
+ * DAI 0385, DAI 0386 and DAI 0400 (AN385, AN386, AN500), memory map and interrupt table. */
 #ifndef MPS2_H
 #define MPS2_H
 
