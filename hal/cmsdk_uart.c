@@ -106,6 +106,18 @@ void cmsdk_uart_tx_isr(enum hal_uart port)
     block->interrupt = INTERRUPT_TX;
 }
 
+void cmsdk_uart_isr(enum hal_uart port)
+{
+    const uint32_t which = ports[port].block->interrupt;
+
+    if ((which & INTERRUPT_RX) != 0u) {
+        cmsdk_uart_rx_isr(port);
+    }
+    if ((which & INTERRUPT_TX) != 0u) {
+        cmsdk_uart_tx_isr(port);
+    }
+}
+
 bool cmsdk_uart_is_quiet(enum hal_uart port)
 {
     const struct port *const own = &ports[port];

@@ -26,6 +26,9 @@ void cmsdk_uart_open(enum hal_uart port, const struct cmsdk_uart_wiring *wiring)
 void cmsdk_uart_rx_isr(enum hal_uart port);
 void cmsdk_uart_tx_isr(enum hal_uart port);
 
+/* The handler where both share a line: rx_irq and tx_irq of the wiring are the same then. [ISR] */
+void cmsdk_uart_isr(enum hal_uart port);
+
 /* Nothing received that main has not read, no refused byte that the line would take now. With interrupts masked this
  * is the question to ask before a sleep: whatever happens after it wakes the core. [MAIN] */
 bool cmsdk_uart_is_quiet(enum hal_uart port);

@@ -6,22 +6,27 @@
 #include "cortex_m/nvic.h"
 #include "cortex_m/semihosting.h"
 #include "cortex_m/startup.h"
+#include "cortex_m/systick.h"
 #include "hal_board.h"
-#include "stm32_timer.h"
 #include "stm32_usart.h"
 
 #define SCB_AIRCR (*(volatile uint32_t *)0xE000ED0Cu)
 
-enum { AIRCR_RESET = 0x05FA0004 };
+/* TIM2, 32 bits, is the clock beside the tick. Its end value is 2^32 - 1 after reset and is left alone: an emulator takes the
+ * writing of it for a deadline. RM0090, section 18.4. */
+#define TIM2_CR1 (*(volatile uint32_t *)BOARD_TIM2_BASE)
+#define TIM2_CNT (*(volatile uint32_t *)(BOARD_TIM2_BASE + 0x24))
+
+enum { AIRCR_RESET = 0x05FA0004, TIM2_ON = 1 };
+
+static uint32_t clock_hz;
 
 static void console_isr(void) { stm32_usart_isr(HAL_UART_CONSOLE); }
 static void link_isr(void) { stm32_usart_isr(HAL_UART_LINK); }
 
 static const startup_vector vectors[] STARTUP_BOARD_VECTORS = {
-    STARTUP_FAULT_8, STARTUP_FAULT_8, STARTUP_FAULT_8,                                   /* 0 to 23 */
-    STARTUP_FAULT_4, app_tick,        fault_entry,     fault_entry,                      /* 24 to 30, TIM2 is 28 */
-    fault_entry,     STARTUP_FAULT_4, fault_entry,     console_isr,                      /* 31 to 37 */
-    link_isr,        fault_entry,                                                        /* 38, 39 */
+    STARTUP_FAULT_8, STARTUP_FAULT_8, STARTUP_FAULT_8, STARTUP_FAULT_8,                  /* 0 to 31 */
+    STARTUP_FAULT_4, fault_entry,     console_isr,     link_isr,        fault_entry,     /* 32 to 39 */
     STARTUP_FAULT_8, STARTUP_FAULT_8, STARTUP_FAULT_8, STARTUP_FAULT_8, STARTUP_FAULT_8, /* 40 to 79 */
     fault_entry,     fault_entry,                                                        /* 80, 81 */
 };
@@ -33,16 +38,21 @@ static struct stm32_usart_wiring link = {BOARD_USART2_BASE, BOARD_USART2_IRQ, BO
 void hal_board_init(void)
 {
     const struct board_clocks clocks = clocks_start();
-    const struct stm32_timer_wiring timers = {BOARD_TIM2_BASE, BOARD_TIM2_IRQ, BOARD_TIM5_BASE, clocks.timers};
 
     console.clock_hz = clocks.apb2;
     link.clock_hz = clocks.apb1;
     stm32_usart_open(HAL_UART_CONSOLE, &console);
     stm32_usart_open(HAL_UART_LINK, &link);
-    stm32_timer_open(&timers);
+    systick_open(clocks.core);
+    clock_hz = clocks.timers;
+    TIM2_CR1 = TIM2_ON;
     hal_flag_set(false);
     nvic_unmask();
 }
+
+uint32_t hal_clock_now(void) { return TIM2_CNT; }
+
+uint32_t hal_clock_hz(void) { return clock_hz; }
 
 const char *hal_board_name(void) { return "netduinoplus2"; }
 
@@ -78,7 +88,7 @@ void hal_flag_set(bool is_squealing) { clocks_set_led(is_squealing); }
 void hal_idle(void)
 {
     nvic_mask();
-    if ((stm32_timer_allows_sleep() || clocks_are_real()) && stm32_usart_is_quiet(HAL_UART_CONSOLE) &&
+    if ((systick_allows_sleep() || clocks_are_real()) && stm32_usart_is_quiet(HAL_UART_CONSOLE) &&
         stm32_usart_is_quiet(HAL_UART_LINK)) {
         nvic_sleep();
     }

@@ -13,11 +13,9 @@ enum {
     BOARD_BAUD = 460800,
 
     BOARD_TIM2_BASE = 0x40000000,
-    BOARD_TIM5_BASE = 0x40000C00,
     BOARD_USART2_BASE = 0x40004400,
     BOARD_USART1_BASE = 0x40011000,
 
-    BOARD_TIM2_IRQ = 28,
     BOARD_USART1_IRQ = 37,
     BOARD_USART2_IRQ = 38,
     BOARD_IRQ_COUNT = 82
@@ -25,8 +23,8 @@ enum {
 
 /* What the clock tree came to, Hz. */
 struct board_clocks {
-    uint32_t apb1, apb2; /* USART2, USART1 */
-    uint32_t timers;     /* TIM2, TIM5 */
+    uint32_t apb1, apb2;   /* USART2, USART1 */
+    uint32_t core, timers; /* the processor, TIM2 */
 };
 
 /* Brings crystal, PLL, flash and buses up to 168 MHz, every wait bounded; on failure all stays on the reset clock. Switches the

@@ -37,7 +37,7 @@ enum {
     PWR_SCALE_1 = 1 << 14,
 
     AHB1_GPIOA_GPIOB = 3,
-    APB1_TIM2_TIM5_USART2_PWR = 1 << 0 | 1 << 3 | 1 << 17 | 1 << 28,
+    APB1_TIM2_USART2_PWR = 1 << 0 | 1 << 17 | 1 << 28,
     APB2_USART1 = 1 << 4,
 
     LED_PIN = 10, /* PA10 */
@@ -75,7 +75,7 @@ bool clocks_are_real(void) { return (RCC_CR & CR_HSI_ON) != 0u; }
 void clocks_open_pins(void)
 {
     RCC_AHB1ENR |= AHB1_GPIOA_GPIOB;
-    RCC_APB1ENR |= APB1_TIM2_TIM5_USART2_PWR;
+    RCC_APB1ENR |= APB1_TIM2_USART2_PWR;
     RCC_APB2ENR |= APB2_USART1;
     (void)RCC_APB2ENR; /* a clock is there two cycles after it was asked for */
     give_to_usart(GPIOB_BASE, 6u);
@@ -121,14 +121,15 @@ static bool speed_up(void)
 
 struct board_clocks clocks_start(void)
 {
-    struct board_clocks clocks = {BOARD_RESET_HZ, BOARD_RESET_HZ, BOARD_RESET_HZ};
+    struct board_clocks clocks = {BOARD_RESET_HZ, BOARD_RESET_HZ, BOARD_RESET_HZ, BOARD_RESET_HZ};
 
     clocks_open_pins();
     if (!clocks_are_real()) {
+        clocks.core = BOARD_CORE_HZ;
         clocks.timers = BOARD_EMULATED_TIMER_HZ;
     } else if (speed_up()) {
-        clocks =
-            (struct board_clocks){BOARD_CORE_HZ / 4, BOARD_CORE_HZ / 2, BOARD_CORE_HZ / 2}; /* timers: twice APB1 */
+        clocks = (struct board_clocks){BOARD_CORE_HZ / 4, BOARD_CORE_HZ / 2, BOARD_CORE_HZ,
+                                       BOARD_CORE_HZ / 2}; /* timers: twice APB1 */
     } else {
         RCC_CFGR = 0u; /* reset clock, undivided buses */
     }

@@ -4,6 +4,7 @@
 #include <stdint.h>
 
 #include "cortex_m/nvic.h"
+#include "cortex_m/systick.h"
 #include "hal_board.h"
 
 #define SCB_CCR (*(volatile uint32_t *)0xE000ED14u)
@@ -33,7 +34,8 @@ struct startup_vectors {
 extern const struct startup_vectors startup_vectors;
 const struct startup_vectors startup_vectors __attribute__((section(".vectors.processor"), used)) = {
     ld_stack_top,
-    {startup_reset, fault_entry, fault_entry, STARTUP_FAULT_4, STARTUP_FAULT_8},
+    {startup_reset, fault_entry, fault_entry, STARTUP_FAULT_4, STARTUP_FAULT_4, fault_entry, fault_entry, fault_entry,
+     systick_entry}, /* fault_entry where the board's tick is another timer: linker/sections.ld */
 };
 
 /* The FPU goes on before the first instruction of C: a compiler may use its registers anywhere, even to copy memory. */
