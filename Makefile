@@ -40,6 +40,7 @@ SOURCES_CONVERGE := $(filter-out src/protocol/%,$(SOURCES)) $(filter-out tests/o
 # The controller of tests/hil: all but its main is tested with the rest.
 SOURCES_LAW   := $(filter-out %/main.c,$(wildcard tests/hil/controller/*.c))
 UNIT_TESTS    := $(filter-out tests/unit/platform_host.c,$(wildcard tests/unit/*.c))
+UNIT_BOARD    := $(or $(BOARD_UNIT),$(SOURCES_LAW) $(UNIT_TESTS))
 
 OUT_BOARD  := build/$(BOARD)
 IMAGE      := $(OUT_BOARD)/squeal$(BOARD_SUFFIX)
@@ -61,7 +62,7 @@ FUZZER     := build/fuzz/fuzzer
 REPLAY     := build/unit/fuzz
 
 OBJECTS_IMAGE := $(SOURCES_IMAGE:%.c=$(OUT_BOARD)/%.o)
-OBJECTS_UNIT  := $(patsubst %.c,$(OUT_BOARD)/%.o,$(SOURCES) $(SOURCES_BOARD) $(SOURCES_LAW) $(UNIT_TESTS) tests/target/platform.c)
+OBJECTS_UNIT  := $(patsubst %.c,$(OUT_BOARD)/%.o,$(SOURCES) $(SOURCES_BOARD) $(UNIT_BOARD) tests/target/platform.c)
 OBJECTS_PROBE := $(patsubst %.c,$(OUT_BOARD)/%.o,$(SOURCES) $(SOURCES_BOARD) tests/target/probe.c)
 OBJECTS_CONTROLLER := $(patsubst %.c,$(OUT_BOARD)/%.o,$(SOURCES) $(SOURCES_BOARD) $(SOURCES_LAW) tests/hil/controller/main.c src/app/fault.c)
 OBJECTS_HOST  := $(patsubst %.c,build/unit/%.o,$(SOURCES) $(SOURCES_LAW) $(UNIT_TESTS) tests/unit/platform_host.c)

@@ -55,8 +55,8 @@ void cmsdk_uart_open(enum hal_uart port, const struct cmsdk_uart_wiring *wiring)
     ring_init(&own->received, own->bytes, 1u, RX_CAPACITY);
 
     line_on(own->block, wiring->clock_hz, wiring->baud);
-    nvic_set_priority(wiring->rx_irq, NVIC_PRIORITY_RECEIVE);
     nvic_set_priority(wiring->tx_irq, NVIC_PRIORITY_LOW);
+    nvic_set_priority(wiring->rx_irq, NVIC_PRIORITY_RECEIVE); /* last: it counts where both share a line */
     nvic_enable(wiring->rx_irq);
     nvic_enable(wiring->tx_irq);
     (void)own->block->data; /* An emulator that has bytes for us gives the first one when it is asked for it. */
@@ -108,14 +108,10 @@ void cmsdk_uart_tx_isr(enum hal_uart port)
 
 void cmsdk_uart_isr(enum hal_uart port)
 {
-    const uint32_t which = ports[port].block->interrupt;
-
-    if ((which & INTERRUPT_RX) != 0u) {
-        cmsdk_uart_rx_isr(port);
-    }
-    if ((which & INTERRUPT_TX) != 0u) {
+    if ((ports[port].block->interrupt & INTERRUPT_TX) != 0u) {
         cmsdk_uart_tx_isr(port);
     }
+    cmsdk_uart_rx_isr(port); /* always: a byte that was held comes without a flag */
 }
 
 bool cmsdk_uart_is_quiet(enum hal_uart port)

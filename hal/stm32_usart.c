@@ -27,10 +27,12 @@ struct stm32_usart_block {
 
 struct port {
     struct stm32_usart_block *block;
+    unsigned irq;
     uint32_t baud;
     struct ring received;
     uint8_t bytes[RX_CAPACITY];
     volatile uint32_t lost; /* written by the interrupt alone */
+    volatile bool is_held;  /* set by the interrupt as it masks itself, cleared by main before it unmasks */
 };
 
 static struct port ports[HAL_UART_COUNT];
@@ -55,6 +57,7 @@ void stm32_usart_open(enum hal_uart port, const struct stm32_usart_wiring *wirin
     struct port *const own = &ports[port];
 
     own->block = block_at(wiring->base);
+    own->irq = wiring->irq;
     own->baud = wiring->baud;
     ring_init(&own->received, own->bytes, 1u, RX_CAPACITY);
     stm32_usart_set_line(wiring);
@@ -63,26 +66,34 @@ void stm32_usart_open(enum hal_uart port, const struct stm32_usart_wiring *wirin
     nvic_enable(wiring->irq);
 }
 
-/* One byte an interrupt. A refused byte's interrupt is only there to wake main. With the ring full the byte stays where it is. */
+/* With the ring full the byte stays where it is, and the interrupt is masked at the controller: an emulator's line stays raised
+ * until the byte is read, whatever the USART's own mask says. */
+static void take_byte(struct port *own, uint32_t state)
+{
+    uint8_t byte;
+
+    if (ring_fill(&own->received) == RX_CAPACITY) {
+        own->is_held = true;
+        nvic_disable(own->irq);
+        return;
+    }
+    own->lost += (state & SR_OVERRUN) != 0u ? 1u : 0u;
+    byte = (uint8_t)own->block->dr;
+    if ((state & SR_RECEIVED) != 0u) {
+        (void)ring_push(&own->received, &byte); /* there was room, and main only makes more */
+    }
+}
+
+/* One byte an interrupt. A refused byte's interrupt is only there to wake main. */
 void stm32_usart_isr(enum hal_uart port)
 {
     struct port *const own = &ports[port];
-    uint32_t cr1 = own->block->cr1 & ~(uint32_t)CR1_TX_INTERRUPT;
     const uint32_t state = own->block->sr;
-    uint8_t byte;
 
+    own->block->cr1 = CR1_LINE_ON | CR1_RX_INTERRUPT;
     if ((state & (SR_RECEIVED | SR_OVERRUN)) != 0u) {
-        if (ring_fill(&own->received) == RX_CAPACITY) {
-            cr1 &= ~(uint32_t)CR1_RX_INTERRUPT;
-        } else {
-            own->lost += (state & SR_OVERRUN) != 0u ? 1u : 0u;
-            byte = (uint8_t)own->block->dr;
-            if ((state & SR_RECEIVED) != 0u) {
-                (void)ring_push(&own->received, &byte); /* there was room, and main only makes more */
-            }
-        }
+        take_byte(own, state);
     }
-    own->block->cr1 = cr1;
 }
 
 bool stm32_usart_is_quiet(enum hal_uart port)
@@ -106,14 +117,6 @@ void stm32_usart_put(const struct stm32_usart_wiring *wiring, char byte)
 
 uint32_t hal_uart_baud(enum hal_uart port) { return ports[port].baud; }
 
-/* CR1 is the interrupt's too; it is changed with interrupts masked. */
-static void set_interrupt(struct stm32_usart_block *block, uint32_t which)
-{
-    nvic_mask();
-    block->cr1 |= which;
-    nvic_unmask();
-}
-
 size_t hal_uart_write(enum hal_uart port, const void *data, size_t size)
 {
     struct stm32_usart_block *const block = ports[port].block;
@@ -124,7 +127,7 @@ size_t hal_uart_write(enum hal_uart port, const void *data, size_t size)
         block->dr = bytes[count++];
     }
     if (count < size) {
-        set_interrupt(block, CR1_TX_INTERRUPT);
+        block->cr1 = CR1_LINE_ON | CR1_RX_INTERRUPT | CR1_TX_INTERRUPT;
     }
     return count;
 }
@@ -138,8 +141,9 @@ size_t hal_uart_read(enum hal_uart port, void *data, size_t size)
     while (count < size && ring_pop(&own->received, &bytes[count])) {
         count++;
     }
-    if (count > 0u && (own->block->cr1 & CR1_RX_INTERRUPT) == 0u) {
-        set_interrupt(own->block, CR1_RX_INTERRUPT);
+    if (count > 0u && own->is_held) {
+        own->is_held = false;
+        nvic_enable(own->irq);
     }
     return count;
 }

@@ -1,7 +1,7 @@
 /* The USART of STM32F2 and F4: implements hal_uart.h for as many ports as the board opens.
  *
- * Received bytes go by interrupt into a ring of 4 KiB a port. When it is full the port's receive interrupt is off until main
- * has read: an emulator then holds the rest back, on silicon the overrun is counted. */
+ * Received bytes go by interrupt into a ring of 4 KiB a port. When it is full the port's interrupt is masked until main has
+ * read: an emulator then holds the rest back, on silicon the overrun is counted. */
 #ifndef STM32_USART_H
 #define STM32_USART_H
 

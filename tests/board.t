@@ -11,14 +11,20 @@ BOARD = os.environ["BOARD"]
 IMAGE = os.environ["PROBE"]
 COMMAND = ["timeout", "150", *os.environ["BOARD_RUN"].split(), IMAGE if os.sep in IMAGE else "./" + IMAGE]
 PASTE = bytes(33 + (i * 7 + i // 91) % 90 for i in range(200000))
-FAULTS = (("0", "a store to the null page", 4, 0x82), ("1", "a load from nowhere", 5, 0x8200),
-          ("2", "a division by zero", 6, 0x2000000), ("3", "an overflown stack", 4, 0x92), ("4", "an unused interrupt", 36, 0))
+# Exception and cfsr. Where the stack overflows depends on the architecture: the processor of Armv8-M watches its end.
+NOWHERE, OVERFLOWN, LIMITED = 0xF0000000, (4, 0x92), (6, 0x100000)
+FAULTS = (("0", "a store to the null page", (4, 0x82)), ("1", "a load from nowhere", (5, 0x8200)),
+          ("2", "a division by zero", (6, 0x2000000)), ("3", "an overflown stack", OVERFLOWN, LIMITED),
+          ("4", "an unused interrupt", (36, 0)))
 tap = Tap()
 
 
 class Probe:
+    """It speaks first: an emulated receiver may drop what comes before it is switched on."""
+
     def __init__(self):
         self.child = subprocess.Popen(COMMAND, stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL)
+        self.field("awake")
 
     def send(self, data):
         self.child.stdin.write(data.encode() if isinstance(data, str) else data)
@@ -90,10 +96,10 @@ if BOARD == "host":
     out, code = probe.end("cn")
     tap.check(code == 0 and out.startswith("clock=") and out.endswith("ticks=0\r\n"), "the end of input ends it", (out, code))
 else:
-    for command, name, exception, cfsr in FAULTS:
+    for command, name, *wanted in FAULTS:
         out, code = Probe().end(command)
         line = re.search(r"\r\n! fault exception=(\w{8}) cfsr=(\w{8}) hfsr=(\w{8}) bfar=(\w{8}) pc=(\w{8})\r\n$", out)
         seen = [int(text, 16) for text in line.groups()] if line else [0] * 5
-        tap.check(code == 99 and seen[:2] == [exception, cfsr] and (seen[4] != 0) == (command != "3") and
-           (command != "1" or seen[3] == 0x90000000), name + " ends with one line and exit code 99", (out, code))
+        tap.check(code == 99 and tuple(seen[:2]) in wanted and (seen[4] != 0) == (tuple(seen[:2]) != OVERFLOWN) and
+           (command != "1" or seen[3] == NOWHERE), name + " ends with one line and exit code 99", (out, code))
 tap.finish()

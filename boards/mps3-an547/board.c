@@ -61,12 +61,15 @@ void hal_board_panic_write(char byte) { cmsdk_uart_put(&console, byte); }
 
 void hal_flag_set(bool is_squealing) { REGISTER(BOARD_LEDS_BASE) = is_squealing ? 1u : 0u; }
 
-/* An interrupt that comes after the question is pending and ends the sleep, although it is masked. */
+/* With the tick stopped the core may sleep. The counter stands meanwhile: virtual time may run on. An interrupt that comes after
+ * the question is pending and ends the sleep, although it is masked. */
 void hal_idle(void)
 {
     nvic_mask();
     if (systick_allows_sleep() && cmsdk_uart_is_quiet(HAL_UART_CONSOLE) && cmsdk_uart_is_quiet(HAL_UART_LINK)) {
+        REGISTER(BOARD_COUNTER_CONTROL_BASE) = 0u;
         nvic_sleep();
+        REGISTER(BOARD_COUNTER_CONTROL_BASE) = COUNTER_ON;
     }
     nvic_unmask();
 }

@@ -1,4 +1,5 @@
-/* Protection for Armv8-M, as mpu_v7m.c has it for its elders: one region makes the code space read-only. */
+/* Protection for Armv8-M: one region makes the code space read-only, as mpu_v7m.c has it for its elders, and the processor
+ * watches the end of the stack itself. */
 #include <stdint.h>
 
 #include "cortex_m/nvic.h"
@@ -10,6 +11,9 @@
 #define MPU_RBAR (*(volatile uint32_t *)0xE000ED9Cu)
 #define MPU_RLAR (*(volatile uint32_t *)0xE000EDA0u)
 #define MPU_MAIR0 (*(volatile uint32_t *)0xE000EDC0u)
+
+/* Of the linker script. */
+extern const uint32_t ld_stack_bottom[];
 
 enum {
     TYPE_REGIONS = 0xFF00,
@@ -23,6 +27,7 @@ enum {
 
 void startup_protect(void)
 {
+    __asm__ volatile("msr msplim, %0" ::"r"(ld_stack_bottom));
     if ((MPU_TYPE & TYPE_REGIONS) == 0u) {
         return;
     }

@@ -84,7 +84,7 @@ class Child:
 
 
 def wired(board, link, options):
-    """The board's command with its link at a socket. mux: as in hal/mps2/mps2.mk."""
+    """The board's command with its link at a socket. mux: as in hal/qemu.mk."""
     command = shlex.split(COMMANDS[board])
     if "null" in command:
         at = command.index("null")

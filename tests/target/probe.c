@@ -130,7 +130,7 @@ static void obey(char command)
         *(volatile uint32_t *)(uintptr_t)zero = 1u;
         break;
     case '1':
-        write_line("read=", *(volatile uint32_t *)(0x90000000u + (uintptr_t)zero));
+        write_line("read=", *(volatile uint32_t *)(0xF0000000u + (uintptr_t)zero));
         break;
     case '2':
         write_line("quotient=", hal_clock_now() / zero);
@@ -151,6 +151,7 @@ int main(void)
 {
     char command;
 
+    write_line("awake=", 1u);
     for (;;) {
         if (hal_uart_read(HAL_UART_CONSOLE, &command, 1u) == 1u) {
             obey(command);
