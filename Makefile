@@ -2,8 +2,8 @@
 # Everything goes to build/: build/<board>/ for firmware, build/tools/ and build/unit/ for programs of this machine.
 
 BOARD  ?= mps2-an386
-BOARDS := $(notdir $(patsubst %/board.mk,%,$(wildcard boards/*/board.mk)))
-ifeq ($(filter $(BOARD),$(BOARDS)),)
+BOARDS := $(filter-out template,$(notdir $(patsubst %/board.mk,%,$(wildcard boards/*/board.mk))))
+ifeq ($(filter $(BOARD),$(BOARDS) template),)
 $(error there is no board '$(BOARD)'; the boards are: $(BOARDS))
 endif
 .DEFAULT_GOAL := all

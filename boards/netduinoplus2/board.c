@@ -84,12 +84,14 @@ void hal_board_panic_write(char byte)
 void hal_flag_set(bool is_squealing) { clocks_set_led(is_squealing); }
 
 /* An interrupt that comes after the question is pending and ends the sleep, although it is masked. Silicon may sleep beside a
- * tick that runs, an emulator may not. */
+ * tick that runs, and is woken by it; an emulator may not. */
 void hal_idle(void)
 {
+    bool may_sleep;
+
     nvic_mask();
-    if ((systick_allows_sleep() || clocks_are_real()) && stm32_usart_is_quiet(HAL_UART_CONSOLE) &&
-        stm32_usart_is_quiet(HAL_UART_LINK)) {
+    may_sleep = systick_allows_sleep() || (clocks_are_real() && hal_tick_is_running());
+    if (may_sleep && stm32_usart_is_quiet(HAL_UART_CONSOLE) && stm32_usart_is_quiet(HAL_UART_LINK)) {
         nvic_sleep();
     }
     nvic_unmask();

@@ -97,6 +97,7 @@ static void start(void)
             .core = hal_board_core(),
             .is_emulated = hal_board_is_emulated(),
             .has_fpu = hal_board_has_fpu(),
+            .has_link = hal_uart_baud(HAL_UART_LINK) > 0u,
             .baud = hal_uart_baud((enum hal_uart)port),
         };
     }

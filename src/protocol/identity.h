@@ -8,6 +8,7 @@
 struct identity {
     const char *version, *build, *board, *core;
     bool is_emulated, has_fpu;
+    bool has_link; /* a UART of its own for the link */
     uint32_t baud; /* of the line */
 };
 

@@ -129,6 +129,8 @@ void status_write_id(struct text *text, const struct console *console)
     text_key_text(text, "board", identity->board);
     text_key_text(text, "core", identity->core);
     text_key_text(text, "emulated", identity->is_emulated ? "yes" : "no");
+    text_key_text(text, "fpu", identity->has_fpu ? "yes" : "no");
+    text_key_text(text, "link", identity->has_link ? "yes" : "no");
     text_key_u64(text, "params", PARAMS_VERSION);
     text_key_u64(text, "signals", SIGNALS_VERSION);
     text_key_u64(text, "commands", COMMANDS_VERSION);

@@ -61,6 +61,7 @@ class Firmware:
         self.input, self.lines, self.partial = b"", [], b""
         self.body, self.notices, self.samples = [], [], []
         self.pty = None
+        self.hear_banner()
         self.ask("echo off")
 
     def __enter__(self):
@@ -85,6 +86,14 @@ class Firmware:
                 raise Silence("the firmware ended")
             *whole, self.partial = (self.partial + chunk).split(b"\r\n")
             self.lines += [line.decode("ascii", "replace") for line in whole]
+
+    def hear_banner(self):
+        """Waits for the firmware to speak: an emulated receiver may drop what comes before it is switched on."""
+        until = time.monotonic() + self.limit_s
+        while not any(line.startswith("squeal ") for line in self.lines):
+            if time.monotonic() > until:
+                raise Silence("no banner")
+            self._pump(until)
 
     def send(self, data):
         self.input += data if isinstance(data, bytes) else data.encode() + b"\r"

@@ -24,6 +24,7 @@ static const struct identity identity = {.version = "0.0.0",
                                          .core = "none",
                                          .is_emulated = false,
                                          .has_fpu = true,
+                                         .has_link = true,
                                          .baud = BENCH_BAUD};
 
 static char line[4096];
