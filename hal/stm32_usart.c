@@ -66,33 +66,37 @@ void stm32_usart_open(enum hal_uart port, const struct stm32_usart_wiring *wirin
     nvic_enable(wiring->irq);
 }
 
-/* With the ring full the byte stays where it is, and the interrupt is masked at the controller: an emulator's line stays raised
- * until the byte is read, whatever the USART's own mask says. */
-static void take_byte(struct port *own, uint32_t state)
+/* Takes the byte that the USART holds into the ring; false if there is none, or if it must stay where it is. Then the interrupt is
+ * masked at the controller: an emulator's line stays raised until the byte is read, whatever the USART's own mask says. */
+static bool take_byte(struct port *own)
 {
+    const uint32_t state = own->block->sr;
     uint8_t byte;
 
+    if ((state & (SR_RECEIVED | SR_OVERRUN)) == 0u) {
+        return false;
+    }
     if (ring_fill(&own->received) == RX_CAPACITY) {
         own->is_held = true;
         nvic_disable(own->irq);
-        return;
+        return false;
     }
     own->lost += (state & SR_OVERRUN) != 0u ? 1u : 0u;
     byte = (uint8_t)own->block->dr;
     if ((state & SR_RECEIVED) != 0u) {
         (void)ring_push(&own->received, &byte); /* there was room, and main only makes more */
     }
+    return true;
 }
 
-/* One byte an interrupt. A refused byte's interrupt is only there to wake main. */
+/* Until there is no byte more: an emulator that gives the next one during a read lowers the line after it, and that byte would
+ * never be told. A refused byte's interrupt is only there to wake main. */
 void stm32_usart_isr(enum hal_uart port)
 {
     struct port *const own = &ports[port];
-    const uint32_t state = own->block->sr;
 
     own->block->cr1 = CR1_LINE_ON | CR1_RX_INTERRUPT;
-    if ((state & (SR_RECEIVED | SR_OVERRUN)) != 0u) {
-        take_byte(own, state);
+    while (take_byte(own)) {
     }
 }
 
@@ -144,6 +148,7 @@ size_t hal_uart_read(enum hal_uart port, void *data, size_t size)
     if (count > 0u && own->is_held) {
         own->is_held = false;
         nvic_enable(own->irq);
+        nvic_pend(own->irq); /* the held byte has had its interrupt already */
     }
     return count;
 }
