@@ -8,6 +8,11 @@ $(error there is no board '$(BOARD)'; the boards are: $(BOARDS))
 endif
 .DEFAULT_GOAL := all
 
+# As many jobs as processors, unless -j says how many; the makes below take part in them.
+ifeq ($(MAKELEVEL)$(filter -j%,$(MAKEFLAGS)),0)
+MAKEFLAGS += -j$(shell nproc)
+endif
+
 Q := $(if $(V),,@)
 say = $(if $(V),,@echo "  $(1) $(2)")
 
@@ -86,7 +91,7 @@ $(shell mkdir -p build && echo '$(BUILD_ID)' >build/build_id)
 endif
 
 # --- Rules ----------------------------------------------------------------------------------------------------------
-.PHONY: all run paper tool monitor console test golden oracle hil detector noise converge frames fuzz bench-link bench-link-on debug check size clean help setup setup-clang other-images host-image command
+.PHONY: all run paper tool monitor console test golden oracle hil detector noise converge frames fuzz bench-link bench-link-on debug bits check size clean help setup setup-clang other-images host-image command
 .DELETE_ON_ERROR:
 
 all: $(IMAGE) $(CONTROLLER) ## build the firmware and the controller of tests/hil for BOARD (default mps2-an386)
@@ -181,6 +186,9 @@ $(ORACLE): $(wildcard tests/oracle/*.[ch] tests/oracle/*.def) Makefile | setup
 	$(Q)mkdir -p $(@D)
 	$(Q)$(CC) -std=c99 -O2 -ffp-contract=off -Wall -Wextra -D_POSIX_C_SOURCE=200809L -o $@ $(filter %.c,$^) -lm
 
+# What make command prints, a line for each of these boards.
+commands_of = $$(for board in $(1); do $(MAKE) -s --no-print-directory BOARD=$$board command; done)
+
 # --- Use ------------------------------------------------------------------------------------------------------------
 ROOT       ?=
 PORT       := $(if $(filter host,$(BOARD)),host,qemu:$(BOARD))
@@ -237,7 +245,7 @@ oracle: $(ORACLE) ## make golden rows for any parameters: the cases of CASES= in
 MERIT_OUT := build/detector/$(SEED)-$(COUNT)
 
 hil: $(IMAGE) $(CONTROLLER) ## a second firmware brakes with the plant, in lockstep over the link; results in build/hil
-	$(Q)COMMANDS="$(BOARD): $(COMMAND)" timeout 600 tests/hil/hil.py --board $(BOARD) --out build/hil
+	$(Q)COMMANDS="$(call commands_of,$(BOARD))" timeout 600 tests/hil/hil.py --board $(BOARD) --out build/hil
 
 detector: $(MERIT) $(MERIT_OUT)/truth.csv ## the detector on COUNT= random cases of seed SEED= against the oracle (ARITH="f32 q27")
 	$(Q)trap 'cat $(MERIT_OUT)/table.txt' EXIT; cp $(MERIT_OUT)/cases.txt $(MERIT_OUT)/table.txt; \
@@ -283,11 +291,13 @@ bench-link-on: $(IMAGE) $(ECHO) $(BENCH_LINK)
 	$(Q)$(BENCH_LINK) --turns $(TURNS) --socket $(LINK) -- $(COMMAND) $(if $(ECHO),-- $(BOARD_RUN) $(ECHO))
 
 test: $(IMAGE) $(CONTROLLER) $(UNIT_IMAGE) $(PROBE) $(UNIT_HOST) $(TOOL) $(ORACLE) $(CAMPAIGN) $(MERIT) $(PICTURES) $(CONVERGE) $(BENCH_LINK) $(ECHO) $(FUZZER) build/fuzz/dictionary $(REPLAY) other-images ## run everything that a change must pass
-	$(Q)COMMANDS="$$(for board in $(BOARDS); do $(MAKE) -s --no-print-directory BOARD=$$board command; done)"; export COMMANDS; \
-	BOARD=$(BOARD) BOARD_RUN="$(BOARD_RUN)" IMAGE=$(IMAGE) CONTROLLER=$(CONTROLLER) UNIT_IMAGE=$(UNIT_IMAGE) PROBE=$(PROBE) \
+	$(Q)COMMANDS="$(call commands_of,$(BOARDS))" BOARD=$(BOARD) BOARD_RUN="$(BOARD_RUN)" IMAGE=$(IMAGE) CONTROLLER=$(CONTROLLER) UNIT_IMAGE=$(UNIT_IMAGE) PROBE=$(PROBE) \
 	    UNIT_HOST=$(UNIT_HOST) HOST_IMAGE=build/host/squeal TOOL=$(TOOL) ORACLE=$(CURDIR)/$(ORACLE) CAMPAIGN=$(CAMPAIGN) MERIT=$(CURDIR)/$(MERIT) \
 	    PICTURES=$(CURDIR)/$(PICTURES) CONVERGE=$(CURDIR)/$(CONVERGE) BENCH_LINK=$(BENCH_LINK) \
 	    FUZZER=$(FUZZER) FUZZ_OPTIONS="$(FUZZ_OPTIONS)" REPLAY=$(REPLAY) tools/tap_summary $(wildcard tests/*.t tests/system/*.t)
+
+bits: $(IMAGE) other-images ## compare the bits of all boards with the host's: f32 and q27, over a million steps each, some 3 minutes
+	$(Q)COMMANDS="$(call commands_of,$(BOARDS))" BOARD=$(BOARD) tests/system/bits.py
 
 tool: $(TOOL) ## build the host tool, build/tools/squeal; see its --help
 
