@@ -8,8 +8,8 @@ $(error there is no board '$(BOARD)'; the boards are: $(BOARDS))
 endif
 .DEFAULT_GOAL := all
 
-# As many jobs as processors, unless -j says how many; the makes below take part in them.
-ifeq ($(MAKELEVEL)$(filter -j%,$(MAKEFLAGS)),0)
+# As many jobs as processors, for the makes below too; -j on the command line has its way.
+ifeq ($(MAKELEVEL),0)
 MAKEFLAGS += -j$(shell nproc)
 endif
 
@@ -301,10 +301,10 @@ bits: $(IMAGE) other-images ## compare the bits of all boards with the host's: f
 
 tool: $(TOOL) ## build the host tool, build/tools/squeal; see its --help
 
-host-image:
+host-image: | setup
 	$(Q)$(MAKE) --no-print-directory BOARD=host all
 
-other-images:
+other-images: | setup
 	$(Q)for board in $(filter-out $(BOARD),$(BOARDS)); do $(MAKE) --no-print-directory BOARD=$$board all || exit; done
 
 command: ## print "board: the command that starts its firmware"
@@ -329,8 +329,8 @@ check: $(IMAGE) $(CONTROLLER) ## check layers, forbidden symbols, documents and 
 	$(Q)tools/gen_tables --check
 	$(Q)clang-format --dry-run -Werror $$(git ls-files '*.c' '*.h')
 
-size: $(IMAGE) ## print what the firmware takes: text and data in flash, data and bss in RAM, bytes
-	$(Q)$(BOARD_SIZE) $(IMAGE)
+size: $(IMAGE) other-images ## flash, RAM and deepest stack of every board against tests/budget.txt
+	$(Q)tools/budget tests/budget.txt $(foreach board,$(filter-out host,$(BOARDS)),$(board)=build/$(board)/squeal.elf)
 
 clean: ## remove build/
 	$(Q)rm -rf build

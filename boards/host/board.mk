@@ -6,5 +6,4 @@ BOARD_LIBS    :=
 BOARD_SOURCES := boards/host/socket.c
 # Where the link listens, if anywhere.
 BOARD_RUN     := $(if $(LINK),env SQUEAL_LINK=unix:$(LINK))
-BOARD_SIZE    := size
 BOARD_SUFFIX  :=

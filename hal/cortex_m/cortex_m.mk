@@ -4,5 +4,4 @@ BOARD_CFLAGS   := $(BOARD_CPU) -mthumb -ffreestanding -fno-math-errno -fno-commo
 BOARD_LDFLAGS  := -nostdlib -T $(BOARD_MAP) -Wl,--gc-sections -Wl,--fatal-warnings
 BOARD_LIBS     := -lgcc
 BOARD_SOURCES  += hal/cortex_m/startup.c hal/cortex_m/faults.c src/base/mem.c
-BOARD_SIZE     := arm-none-eabi-size
 BOARD_SUFFIX   := .elf

@@ -295,7 +295,8 @@ static void check_banner(void)
     (void)bench_say("");
     tap_check(bench_starts(bench.heard, "squeal 0.0.0 (test) on bench, none: "), "the banner says who is speaking");
     tap_check_text(bench_say("id\r"),
-                   "ok id name=squeal version=0.0.0 build=test board=bench core=none emulated=no fpu=yes link=yes params=5 signals=3 "
+                   "ok id name=squeal version=0.0.0 build=test board=bench core=none emulated=no fpu=yes link=yes "
+                   "params=5 signals=3 "
                    "commands=6 arith=f32 normal=rk4 method=event states=4 spp=64",
                    "and so does id");
 }
