@@ -75,7 +75,7 @@ red 'symbols: a missing file' 'none.elf' tools/check_symbols "$work/none.elf"
 
 # A board that is still to be written: an error for each function of the hal, and one for the vectors.
 template() {
-    make -s SETUP=no BOARD=template "OUT_BOARD=$work/template" "$work/template/boards/template/board.o" >"$work/errors" 2>&1 && return 1
+    env -u MAKEFLAGS -u MAKELEVEL make -s SETUP=no BOARD=template "OUT_BOARD=$work/template" "$work/template/boards/template/board.o" >"$work/errors" 2>&1 && return 1
     sed -n 's/.*error: #error "\([a-z_]*\): .*/\1/p' "$work/errors" | grep -vx vectors | sort >"$work/told"
     sed -n 's/^[a-z][a-z0-9_ ]* \**\(hal_[a-z_]*\)(.*/\1/p' hal/hal_*.h | sort >"$work/wanted"
     [ "$(grep -c 'error:' "$work/errors")" -eq $(($(wc -l <"$work/wanted") + 1)) ] && diff "$work/wanted" "$work/told"

@@ -1,21 +1,13 @@
 #!/bin/sh
 # Two clones in different folders build the same firmware, byte for byte.
-work=$(mktemp -d) || exit 1
-trap 'rm -rf "$work"' EXIT
-board=mps2-an386
-for clone in one a/folder/whose/name/is/longer; do
-    git clone -q . "$work/$clone" && make -s -C "$work/$clone" SETUP=no BOARD=$board build/$board/squeal.elf >"$work/out" 2>&1 || {
-        echo "not ok 1 - a clone builds"
-        sed 's/^/# /' "$work/out"
-        echo 1..1
-        exit 1
-    }
-done
-if cmp "$work/one/build/$board/squeal.elf" "$work/$clone/build/$board/squeal.elf"; then
-    echo "ok 1 - two clones in different folders make the same firmware"
-else
-    echo "not ok 1 - two clones in different folders make the same firmware"
-    exit=1
-fi
-echo 1..1
-exit ${exit-0}
+. "$(dirname "$0")/tap.sh"
+
+image=build/mps2-an386/squeal.elf
+build() { # folder of a new clone
+    git clone -q . "$work/$1" && env -u MAKEFLAGS -u MAKELEVEL make -s -C "$work/$1" SETUP=no BOARD=mps2-an386 "$image"
+}
+
+ok 'a clone builds' quietly build one
+ok 'and another, in a folder of another depth' quietly build a/folder/whose/name/is/longer
+ok 'both make the same firmware' quietly cmp "$work/one/$image" "$work/a/folder/whose/name/is/longer/$image"
+finish
