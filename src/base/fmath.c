@@ -160,12 +160,12 @@ float fmath_exp2(float value)
 /* The series of 1 - e^-x about 0, where the difference would lose its digits. */
 float fmath_decay(float value)
 {
-    float sum = 1.0f / 9.0f;
+    float sum = 1.0f / 11.0f;
 
     if (value > 1.0f) {
         return 1.0f - fmath_exp2(value * -1.44269504f);
     }
-    for (unsigned i = 8u; i > 1u; i--) {
+    for (unsigned i = 10u; i > 1u; i--) {
         sum = (1.0f - value * sum) / (float)i;
     }
     return value * (1.0f - value * sum);

@@ -23,10 +23,11 @@ static void give_order(struct executive *executive)
     executive->draft.measure_steps = 0u;
 }
 
-static void order_restart(struct executive *executive, const struct sim_plan *plan)
+/* To the candidate. */
+static void order_restart(struct executive *executive)
 {
-    executive->draft.plan = *plan;
-    executive->draft.substeps = (uint32_t)plan->params.steps_per_tick;
+    executive->draft.plan = executive->candidate;
+    executive->draft.substeps = (uint32_t)executive->draft.plan.params.steps_per_tick;
     executive_stop(executive);
     executive->draft.is_reset = true;
     executive->draft.is_new_plan = true;
@@ -38,11 +39,10 @@ static void order_restart(struct executive *executive, const struct sim_plan *pl
 
 struct params_problem executive_reset(struct executive *executive, const struct params *params)
 {
-    struct sim_plan plan;
-    const struct params_problem problem = sim_plan_make(&plan, params, NULL);
+    const struct params_problem problem = sim_plan_make(&executive->candidate, params, NULL);
 
     if (problem.error == ERROR_OK) {
-        order_restart(executive, &plan);
+        order_restart(executive);
     }
     return problem;
 }
@@ -55,12 +55,11 @@ void executive_snapshot(struct executive *executive)
 
 struct params_problem executive_restore(struct executive *executive)
 {
-    struct sim_plan plan;
-    const struct params_problem problem = snapshot_check(executive->image, &plan);
+    const struct params_problem problem = snapshot_check(executive->image, &executive->candidate);
 
     if (problem.error == ERROR_OK) {
         executive->draft.is_restore = true;
-        order_restart(executive, &plan);
+        order_restart(executive);
     }
     return problem;
 }
@@ -70,7 +69,6 @@ struct params_problem executive_set(struct executive *executive, const struct pa
 {
     const struct params_info *moved = params_restart_change(&executive->draft.plan.params, params);
     struct params_problem problem = params_check(params);
-    struct sim_plan plan;
 
     if (was_reset != NULL) {
         *was_reset = false;
@@ -88,9 +86,9 @@ struct params_problem executive_set(struct executive *executive, const struct pa
         }
         return problem;
     }
-    problem = sim_plan_make(&plan, params, &executive->draft.plan.scale);
+    problem = sim_plan_make(&executive->candidate, params, &executive->draft.plan.scale);
     if (problem.error == ERROR_OK) {
-        executive->draft.plan = plan;
+        executive->draft.plan = executive->candidate;
         executive->draft.substeps = (uint32_t)params->steps_per_tick;
         executive->draft.is_new_plan = true;
         give_order(executive);
