@@ -98,7 +98,8 @@ static int prepare_set(struct take *take)
     if (code == EXIT_OK) {
         enum device_result result =
             preset != NULL ? device_preset(take->device, index, NULL) : device_reset(take->device, &step);
-        if (result == DEVICE_OK) {
+        if (result == DEVICE_OK && (arguments->operand_count > 0 || tables.table[PARAMS_TABLE_LOAD] != NULL ||
+                                    tables.table[PARAMS_TABLE_SPEED] != NULL)) {
             result = device_set(take->device, values, arguments->operand_count, &tables, true, NULL);
         }
         result = result == DEVICE_OK ? recording_read_set(&take->recording, take->device) : result;
