@@ -82,15 +82,15 @@ static struct params_problem check_fit(const struct params *params, const struct
     }
     if (!(scale->stiffness <= stiffness_max)) {
         return params_blame(ERROR_OUT_OF_SCALE, "kt", 0.0f,
-                     stiffness_max * params->stiffness_normal_n_per_m - params->stiffness_caliper_n_per_m);
+                            stiffness_max * params->stiffness_normal_n_per_m - params->stiffness_caliper_n_per_m);
     }
     if (!(scale->friction <= SCALE_FRICTION_MAX)) {
         return params_blame(ERROR_OUT_OF_SCALE, "mu_s", 0.0f,
-                     SCALE_FRICTION_MAX / scale->friction * params->friction_static_ratio);
+                            SCALE_FRICTION_MAX / scale->friction * params->friction_static_ratio);
     }
     if (scale->has_floor && !(scale->friction_floor <= SCALE_FRICTION_MAX)) {
         return params_blame(ERROR_OUT_OF_SCALE, "mu_floor", -1e30f,
-                     SCALE_FRICTION_MAX / scale->friction_floor * params->friction_floor_ratio);
+                            SCALE_FRICTION_MAX / scale->friction_floor * params->friction_floor_ratio);
     }
     if (!(fmath_abs(scale->friction_slope) <= SCALE_FRICTION_MAX)) {
         const float limit =

@@ -15,7 +15,7 @@ enum {
     LINK_NO_INDEX = 255,  /* nothing to blame; no second axis of SCAN; all parameters of MARGIN */
     LINK_STEP_REQUEST = 14,
     LINK_STEP_REPLY = 45,
-    LINK_PIECE = 232,     /* bytes of a run that go over at a time */
+    LINK_PIECE = 232,      /* bytes of a run that go over at a time */
     LINK_TABLE_PIECE = 16, /* points of a table that do */
     LINK_TABLE_REQUEST = 132
 };

@@ -16,8 +16,9 @@ struct curve {
     uint32_t count;
     bool has_shared_jumps; /* two points of one time whose jump is spread */
     uint64_t at[PARAMS_POINTS_MAX];
-    int32_t value[PARAMS_POINTS_MAX];    /* with the offset; the limits come last */
-    uint32_t inverse[PARAMS_POINTS_MAX]; /* 2^62 over the way to the next point, that shifted to 32 bits; 0 for a jump */
+    int32_t value[PARAMS_POINTS_MAX]; /* with the offset; the limits come last */
+    uint32_t
+        inverse[PARAMS_POINTS_MAX]; /* 2^62 over the way to the next point, that shifted to 32 bits; 0 for a jump */
     int32_t low, high;
     uint64_t start;          /* pulses: t1, from which their points count */
     uint64_t period;         /* of pulses; 0: they come once */

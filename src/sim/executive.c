@@ -9,6 +9,15 @@ bool executive_has_order(const struct executive *executive)
     return publish_taken(&executive->publish) != executive->publish.generation;
 }
 
+/* A plan to look at before it is ordered, in the place of the order that comes next: it is too large for the stack. */
+static struct sim_plan *candidate(struct executive *executive)
+{
+    struct executive_order *order = publish_back(&executive->publish);
+
+    BASE_ASSERT(order != NULL);
+    return &order->plan;
+}
+
 static void give_order(struct executive *executive)
 {
     struct executive_order *order = publish_back(&executive->publish);
@@ -26,7 +35,7 @@ static void give_order(struct executive *executive)
 /* To the candidate. */
 static void order_restart(struct executive *executive)
 {
-    executive->draft.plan = executive->candidate;
+    executive->draft.plan = *candidate(executive);
     executive->draft.substeps = (uint32_t)executive->draft.plan.params.steps_per_tick;
     executive_stop(executive);
     executive->draft.is_reset = true;
@@ -39,7 +48,7 @@ static void order_restart(struct executive *executive)
 
 struct params_problem executive_reset(struct executive *executive, const struct params *params)
 {
-    const struct params_problem problem = sim_plan_make(&executive->candidate, params, NULL);
+    const struct params_problem problem = sim_plan_make(candidate(executive), params, NULL);
 
     if (problem.error == ERROR_OK) {
         order_restart(executive);
@@ -55,7 +64,7 @@ void executive_snapshot(struct executive *executive)
 
 struct params_problem executive_restore(struct executive *executive)
 {
-    const struct params_problem problem = snapshot_check(executive->image, &executive->candidate);
+    const struct params_problem problem = snapshot_check(executive->image, candidate(executive));
 
     if (problem.error == ERROR_OK) {
         executive->draft.is_restore = true;
@@ -86,9 +95,9 @@ struct params_problem executive_set(struct executive *executive, const struct pa
         }
         return problem;
     }
-    problem = sim_plan_make(&executive->candidate, params, &executive->draft.plan.scale);
+    problem = sim_plan_make(candidate(executive), params, &executive->draft.plan.scale);
     if (problem.error == ERROR_OK) {
-        executive->draft.plan = executive->candidate;
+        executive->draft.plan = *candidate(executive);
         executive->draft.substeps = (uint32_t)params->steps_per_tick;
         executive->draft.is_new_plan = true;
         give_order(executive);

@@ -94,7 +94,6 @@ struct executive {
     /* main's own */
     float arithmetic;             /* of the defaults on this board */
     struct executive_order draft; /* last order given */
-    struct sim_plan candidate;    /* of a set that is being looked at; too large for the stack */
     struct scale scales[2];       /* by epoch & 1, for samples that are still on their way */
     uint32_t inputs_clamped;      /* demands held at a limit, since the start */
     uint32_t inputs_refused;      /* demands for which there was no place, since the start */

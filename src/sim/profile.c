@@ -86,8 +86,10 @@ static void set_values(struct profile *profile, const struct demand *demand, flo
     const bool goes_on = profile->kind == DEMAND_RAMP || is_sine;
 
     profile->from = (goes_on ? demand->from + demand->offset : demand_begin(demand)) / unit;
-    profile->to =
-        (is_sine ? demand->to : goes_on ? demand->to + demand->offset : demand_limit(demand, demand->to)) / unit;
+    profile->to = (is_sine   ? demand->to
+                   : goes_on ? demand->to + demand->offset
+                             : demand_limit(demand, demand->to)) /
+                  unit;
     profile->low = demand->low / unit;
     profile->high = demand->high / unit;
 }
@@ -100,8 +102,7 @@ void profile_derive(struct profile *profile, const struct demand *demand, const 
     jump_if_sudden(profile);
     set_values(profile, demand, unit);
     set_shares(profile, is_shared);
-    profile->turns_per_step =
-        profile->kind == DEMAND_SINE ? turns_in_step(demand->frequency_hz * scale->step_s) : 0u;
+    profile->turns_per_step = profile->kind == DEMAND_SINE ? turns_in_step(demand->frequency_hz * scale->step_s) : 0u;
     set_end(profile);
 }
 

@@ -60,8 +60,8 @@ struct sim {
     struct plant_output output;
     struct acting_state load, speed; /* of what has one */
     struct input_state input;        /* of a controller, in place of the profiles */
-    struct watch watch;       /* over the controller */
-    float safe_load;          /* force with which the safe state began */
+    struct watch watch;              /* over the controller */
+    float safe_load;                 /* force with which the safe state began */
     int32_t safe_load_q27;
     struct texture_angle angle; /* of the disc; counted from reset, while there is run-out */
     int32_t texture;            /* that acts on the load */

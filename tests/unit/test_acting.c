@@ -132,9 +132,9 @@ static float friction_n(void)
 {
     const struct sim *sim = &plant.sim;
 
-    return plant.plan.scale.force_n *
-           (plant.plan.arithmetic == ARITH_Q27 ? (float)step_q27_friction(&sim->q27, &plant.plan.q27) / Q27
-                                               : step_f32_friction(&sim->f32, &plant.plan.f32));
+    return plant.plan.scale.force_n * (plant.plan.arithmetic == ARITH_Q27
+                                           ? (float)step_q27_friction(&sim->q27, &plant.plan.q27) / Q27
+                                           : step_f32_friction(&sim->f32, &plant.plan.f32));
 }
 
 /* J dOmega = - integral of pads F R dt, with R 0.11 m, J 0.05 kg m2, two pads. */
@@ -260,7 +260,8 @@ static enum error problem_of(const char *assignments)
 
 static void check_refusals(void)
 {
-    tap_check(problem_of("N_low 3 N_high 2") == ERROR_OUT_OF_RANGE && problem_of("v_low 3 v_high 2") == ERROR_OUT_OF_RANGE,
+    tap_check(problem_of("N_low 3 N_high 2") == ERROR_OUT_OF_RANGE &&
+                  problem_of("v_low 3 v_high 2") == ERROR_OUT_OF_RANGE,
               "limits the wrong way round");
     tap_check(problem_of("load pulses rise 1 hold 1 fall 1 every 2.9") == ERROR_OUT_OF_RANGE &&
                   problem_of("load pulses rise 1 hold 1 fall 1 every 3") == ERROR_OK,
@@ -271,7 +272,8 @@ static void check_refusals(void)
                   problem_of("speed inertia m 1 R 1 J 2") == ERROR_OK,
               "a disc lighter than its pads");
     tap_check(problem_of("N0 1 dither 1 N_max 1.9") == ERROR_OUT_OF_SCALE &&
-                  problem_of("N0 1 dither 1 N_max 2") == ERROR_OK && problem_of("N0 1 N_off 2 N_max 2.9") == ERROR_OUT_OF_SCALE,
+                  problem_of("N0 1 dither 1 N_max 2") == ERROR_OK &&
+                  problem_of("N0 1 N_off 2 N_max 2.9") == ERROR_OUT_OF_SCALE,
               "what does not fit the scale");
 }
 

@@ -17,7 +17,8 @@ static float load_at(uint64_t step) { return (float)curve_value(&plan.load.curve
 static float speed_at(uint64_t step) { return (float)curve_value(&plan.speed.curve, step) / 13421772.8f; }
 
 /* Times in steps, values in the unit of the table. */
-static void plan_of_table(const char *assignments, enum params_table_index index, uint32_t count, const float points[][2])
+static void plan_of_table(const char *assignments, enum params_table_index index, uint32_t count,
+                          const float points[][2])
 {
     struct params params = plants_params(assignments);
 
@@ -77,8 +78,8 @@ static void check_full(void)
     }
     plan_of_table(UNIT_SET "speed table", PARAMS_TABLE_SPEED, PARAMS_POINTS_MAX, (const float(*)[2])points);
     for (uint32_t i = 0u; i < 2700u; i++) {
-        worst = fmath_max(worst, fmath_abs(speed_at(i) - drawn(PARAMS_POINTS_MAX, (const float(*)[2])points,
-                                                               (float)i + 0.5f)));
+        worst = fmath_max(
+            worst, fmath_abs(speed_at(i) - drawn(PARAMS_POINTS_MAX, (const float(*)[2])points, (float)i + 0.5f)));
     }
     /* A time of 1300 steps has 24 bits, so it is known to 6e-5 steps; the steepest line falls 18 in half a step. */
     tap_check_close(worst, 0.0f, 4e-3f, "sixty-four of them, of either sign");
@@ -96,7 +97,8 @@ static void check_jump(float at)
         sum += load_at(i);
         moment += load_at(i) * ((float)i + 0.5f);
     }
-    tap_check_close(sum, 2.0f * at + 5.0f * (60.0f - at), 2e-4f, "a jump inside a step has the impulse of the real one");
+    tap_check_close(sum, 2.0f * at + 5.0f * (60.0f - at), 2e-4f,
+                    "a jump inside a step has the impulse of the real one");
     tap_check_close(moment, at * at + 2.5f * (3600.0f - at * at), 1e-2f, "and its first moment");
 }
 

@@ -7,9 +7,9 @@
 #include "bench.h"
 #include "controller.h"
 #include "model/presets.h"
+#include "protocol/link_parts.h"
 #include "protocol/signals.h"
 #include "tap.h"
-#include "protocol/link_parts.h"
 #include "tests.h"
 
 /* --- Looking ------------------------------------------------------------------------------------------------------ */

@@ -83,8 +83,7 @@ static void check_ramp(void)
     tap_check(speed_at(10u) == 0.0f, "and then is over");
     for (uint32_t i = 0u; i < 40u; i++) {
         rises = rises && load_at(i + 1u) >= load_at(i);
-        is_known = is_known && (load_moves(i) || i >= 30u) &&
-                   !(load_moves(i) && i > 32u);
+        is_known = is_known && (load_moves(i) || i >= 30u) && !(load_moves(i) && i > 32u);
     }
     tap_check(rises, "it never falls back");
     tap_check(is_known, "it is known to move until its end, and at most two steps longer");

@@ -74,17 +74,18 @@ static bool go_on_alike(uint32_t steps)
 /* Many runs, each left at a random step with demands in all stages, and gone on with by another executive. */
 static void check_going_on(float arith)
 {
-    static const char *const sets[] = {"",
-                                       "normal exact",
-                                       "load sine N0 2000 N1 700 fN 500 spp 128",
-                                       "contact lift normal exact load step N0 3000 N1 1000 t1 0.01",
-                                       "stale 0.003 safe 0.006 ramp 0.01",
-                                       "method naive",
-                                       "cn 5 normal exact rough 0.01 runout 0.2",
-                                       "load table lag 0.004 dither 200 f_dither 1700 speed table v_lag 0.01",
-                                       "load pulses t1 0.003 rise 0.001 hold 0.004 every 0.0071 speed inertia J 0.05",
-                                       "speed sine v1 0.3 fv 90 v_off 0.1 v_dither 0.05 fv_dither 700 lag 0.5 N_high 2000",
-                                       "mu_floor 0.1 contact no_pull speed ramp v1 -0.1 tv2 0.05"};
+    static const char *const sets[] = {
+        "",
+        "normal exact",
+        "load sine N0 2000 N1 700 fN 500 spp 128",
+        "contact lift normal exact load step N0 3000 N1 1000 t1 0.01",
+        "stale 0.003 safe 0.006 ramp 0.01",
+        "method naive",
+        "cn 5 normal exact rough 0.01 runout 0.2",
+        "load table lag 0.004 dither 200 f_dither 1700 speed table v_lag 0.01",
+        "load pulses t1 0.003 rise 0.001 hold 0.004 every 0.0071 speed inertia J 0.05",
+        "speed sine v1 0.3 fv 90 v_off 0.1 v_dither 0.05 fv_dither 700 lag 0.5 N_high 2000",
+        "mu_floor 0.1 contact no_pull speed ramp v1 -0.1 tv2 0.05"};
     uint32_t state_of_dice = 7u;
     bool ok = true;
 
@@ -182,7 +183,13 @@ static enum error with_byte(size_t at, uint8_t byte)
 
 static void check_refusals(void)
 {
-    enum { SET = 4, PARAM_N0 = SET + 4 * 11, COUNT = SET + 4 * 65, LATCHED_LOAD = COUNT + 2 * (4 + 8 * PARAMS_POINTS_MAX), SHIFT = LATCHED_LOAD + 8 };
+    enum {
+        SET = 4,
+        PARAM_N0 = SET + 4 * 11,
+        COUNT = SET + 4 * 65,
+        LATCHED_LOAD = COUNT + 2 * (4 + 8 * PARAMS_POINTS_MAX),
+        SHIFT = LATCHED_LOAD + 8
+    };
     uint32_t hash;
     bool ok = true;
 

@@ -130,7 +130,8 @@ static int set_all(const struct arguments *arguments, struct device *device, str
     if (code != EXIT_OK) {
         return code;
     }
-    const enum device_result result = device_set(device, values, count, NULL, !arguments_flag(arguments, "--live"), &commit);
+    const enum device_result result =
+        device_set(device, values, count, NULL, !arguments_flag(arguments, "--live"), &commit);
     if (result != DEVICE_OK) {
         return linked_fail(device, result);
     }

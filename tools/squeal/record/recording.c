@@ -127,7 +127,8 @@ enum device_result recording_read_set(struct recording *recording, struct device
 
 enum device_result recording_load(const struct recording *recording, struct device *device)
 {
-    const struct device_tables tables = {{&recording->tables[PARAMS_TABLE_LOAD], &recording->tables[PARAMS_TABLE_SPEED]}};
+    const struct device_tables tables = {
+        {&recording->tables[PARAMS_TABLE_LOAD], &recording->tables[PARAMS_TABLE_SPEED]}};
     uint64_t step;
     enum device_result result = device_reset(device, &step);
 

@@ -45,8 +45,8 @@ static bool read_points(const struct csv *csv, const char *path, enum params_tab
         if (!read_cell(csv, row, time, &point.time_s) || !read_cell(csv, row, value, &point.value) ||
             params_check_point(index, params_table_end_s(table), &point).error != ERROR_OK) {
             (void)snprintf(problem, CSV_PROBLEM_MAX,
-                           "%.100s:%zu: a time not before the last one, and a value in the range of %s, are wanted", path,
-                           csv->lines[row], params_table_values(index)->symbol);
+                           "%.100s:%zu: a time not before the last one, and a value in the range of %s, are wanted",
+                           path, csv->lines[row], params_table_values(index)->symbol);
             return false;
         }
         table->points[table->count++] = point;
