@@ -2,7 +2,7 @@
 #include "base/mem.h"
 #include "protocol/link_parts.h"
 
-enum { FIELD_ACT, FIELD_TABLE, FIELD_FIRST, FIELD_COUNT }; /* of the request */
+enum { FIELD_ACT, FIELD_TABLE, FIELD_FIRST, FIELD_COUNT, FIELD_POINTS }; /* of the request */
 
 static enum link_progress tell(struct link *link, const struct params *params, uint8_t index, uint8_t first)
 {
@@ -24,20 +24,21 @@ static enum link_progress tell(struct link *link, const struct params *params, u
     return link_answer(link);
 }
 
-/* So many points behind the first of the table's, in place of all that came there. */
-static struct params_problem put(struct link *link, uint8_t index, uint8_t first, uint8_t count)
+/* So many points behind the first of the table's, in place of all that came there; or which field is wrong. */
+static struct params_problem put(struct link *link, uint8_t index, uint8_t first, uint8_t count, uint8_t *field)
 {
     struct params_points table = link_staged(link)->tables[index];
     struct params_problem problem = {ERROR_OK, NULL, 0.0f, 0.0f};
 
     memset(&table.points[first], 0, (PARAMS_POINTS_MAX - first) * sizeof table.points[0]);
     table.count = first;
-    for (uint32_t i = 0u; i < count && problem.error == ERROR_OK; i++) {
+    for (uint8_t i = 0u; i < count && problem.error == ERROR_OK; i++) {
         struct params_point point;
 
         point.time_s = bytes_get_f32(&link->arguments);
         point.value = bytes_get_f32(&link->arguments);
         problem = params_check_point(index, params_table_end_s(&table), &point);
+        *field = (uint8_t)(FIELD_POINTS + 2u * i + (problem.info == params_table_values(index) ? 1u : 0u));
         table.points[table.count++] = point;
     }
     if (problem.error == ERROR_OK) {
@@ -54,6 +55,7 @@ enum link_progress link_table(struct link *link)
     const uint8_t count = bytes_get_u8(&link->arguments);
     const struct params *params = act == LINK_TABLE_IN_FORCE ? executive_params(link->executive) : link_staged(link);
     struct params_problem problem;
+    uint8_t field = FIELD_POINTS;
 
     if (act >= LINK_TABLE_ACTS) {
         return link_refuse_field(link, FIELD_ACT, 0.0f, (float)(LINK_TABLE_ACTS - 1));
@@ -72,7 +74,7 @@ enum link_progress link_table(struct link *link)
 
         return link_refuse_field(link, FIELD_COUNT, 0.0f, (float)(room < LINK_TABLE_PIECE ? room : LINK_TABLE_PIECE));
     }
-    problem = put(link, index, first, count);
+    problem = put(link, index, first, count, &field);
     return problem.error == ERROR_OK ? tell(link, link_staged(link), index, first)
-                                     : link_refuse_problem(link, &problem);
+                                     : link_refuse_field(link, field, problem.low, problem.high);
 }
