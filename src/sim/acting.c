@@ -62,6 +62,7 @@ static void derive(struct acting *acting, const struct demand *demand, const str
     acting->dither_q27 = fixed_from_float(acting->dither, FRACTION_BITS);
     acting->dither_turns = turns_in_step(demand->dither_hz * scale->step_s);
     acting->has_state = acting->has_lag || acting->kind == DEMAND_INERTIA;
+    acting->is_plain = !is_curve && !acting->has_state && !acting->has_dither;
     if (acting->has_state || acting->has_dither) {
         acting->end = UINT64_MAX;
     }

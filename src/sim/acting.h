@@ -26,12 +26,12 @@ struct acting_factor {
 
 struct acting {
     enum demand_kind kind;
+    bool is_plain; /* nothing but a profile: the fast way */
     bool has_state, has_lag, has_dither;
     struct profile profile;
     struct profile_q27 profile_q27;
-    struct curve curve; /* of pulses and tables */
-    uint64_t end;       /* step from which on nothing more is asked for; UINT64_MAX for never */
-    float begin;        /* before anything changes */
+    uint64_t end; /* step from which on nothing more is asked for; UINT64_MAX for never */
+    float begin;  /* before anything changes */
     int32_t begin_q27;
     float lag_half, lag_whole; /* part of the way that half a step and a whole one go */
     struct acting_factor lag_half_q27, lag_whole_q27;
@@ -41,6 +41,7 @@ struct acting {
     int32_t dither_q27;
     uint64_t dither_turns; /* a step */
     bool is_force;
+    struct curve curve; /* of pulses and tables */
 };
 
 /* A sum in either arithmetic; the one that is not in use stays as it was at reset. */
@@ -66,12 +67,19 @@ int32_t acting_moving_q27(const struct acting *acting, const struct acting_state
 
 static inline float acting_value_f32(const struct acting *acting, const struct acting_state *state, uint64_t step)
 {
-    return step >= acting->end ? acting->profile.last : acting_moving_f32(acting, state, step);
+    if (step >= acting->end) {
+        return acting->profile.last;
+    }
+    return acting->is_plain ? profile_moving_value(&acting->profile, step) : acting_moving_f32(acting, state, step);
 }
 
 static inline int32_t acting_value_q27(const struct acting *acting, const struct acting_state *state, uint64_t step)
 {
-    return step >= acting->end ? acting->profile_q27.last : acting_moving_q27(acting, state, step);
+    if (step >= acting->end) {
+        return acting->profile_q27.last;
+    }
+    return acting->is_plain ? profile_q27_moving_value(&acting->profile_q27, step)
+                            : acting_moving_q27(acting, state, step);
 }
 
 /* The step is made: its state goes on, friction being that at its end. [ISR] */

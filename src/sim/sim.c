@@ -1,6 +1,7 @@
 /* One plant, one step at a time. */
 #include "sim/sim.h"
 
+#include "base/compiler.h"
 #include "base/fixed.h"
 #include "base/fmath.h"
 #include "base/hash.h"
@@ -38,6 +39,7 @@ struct params_problem sim_plan_make(struct sim_plan *plan, const struct params *
     step_q27_configure(&plan->q27, params, &plan->scale);
     acting_of_load(&plan->load, params, &plan->scale);
     acting_of_speed(&plan->speed, params, &plan->scale);
+    plan->has_state = plan->load.has_state || plan->speed.has_state;
     texture_derive(&plan->texture, params, &plan->scale);
     plan->load_limit = 1.0f / scale_peak_factor(params);
     plan->load_limit_q27 = to_q27(plan->load_limit);
@@ -57,22 +59,22 @@ static void renew_texture(struct sim *sim, int32_t disc)
 }
 
 /* A controller's, or the set's. */
-static float load_f32(const struct sim *sim)
+BASE_INLINE float load_f32(const struct sim *sim)
 {
     return sim->input.holds_load ? sim->input.load : acting_value_f32(&sim->plan->load, &sim->load, sim->step);
 }
 
-static float speed_f32(const struct sim *sim)
+BASE_INLINE float speed_f32(const struct sim *sim)
 {
     return sim->input.holds_speed ? sim->input.speed : acting_value_f32(&sim->plan->speed, &sim->speed, sim->step);
 }
 
-static int32_t load_q27(const struct sim *sim)
+BASE_INLINE int32_t load_q27(const struct sim *sim)
 {
     return sim->input.holds_load ? sim->input.load_q27 : acting_value_q27(&sim->plan->load, &sim->load, sim->step);
 }
 
-static int32_t speed_q27(const struct sim *sim)
+BASE_INLINE int32_t speed_q27(const struct sim *sim)
 {
     return sim->input.holds_speed ? sim->input.speed_q27 : acting_value_q27(&sim->plan->speed, &sim->speed, sim->step);
 }
@@ -136,7 +138,7 @@ static void follow_q27(struct sim *sim)
 }
 
 /* The step is made: what has a state of its own goes on. */
-static void follow(struct sim *sim)
+static BASE_NOINLINE void follow(struct sim *sim)
 {
     if (sim->plan->arithmetic == ARITH_Q27) {
         follow_q27(sim);
@@ -410,7 +412,7 @@ bool sim_step_unhashed(struct sim *sim)
         detector_set_diverged(&sim->detector);
         return true;
     }
-    if (sim->plan->load.has_state || sim->plan->speed.has_state) {
+    if (sim->plan->has_state) {
         follow(sim);
     }
     sim->step++;

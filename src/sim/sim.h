@@ -21,18 +21,19 @@
 
 /* A set with everything derived from it, made in main and handed to the interrupt as a whole. */
 struct sim_plan {
-    struct params params;
     struct scale scale;
     uint8_t arithmetic; /* ARITH_F32 or ARITH_Q27: which of the pairs below is in use */
     struct step_f32_coeffs f32;
     struct step_q27_coeffs q27;
-    struct acting load, speed;
     struct texture texture;
     float load_limit; /* of a force held by a controller, under this texture */
     int32_t load_limit_q27;
     struct watch_config watch;
     struct detector_config detector;
     struct prediction prediction;
+    bool has_state; /* load or speed */
+    struct acting load, speed;
+    struct params params; /* last, like the curves: what the interrupt reads lies near */
 };
 
 /* Checks a set and derives its plan. latched as in scale_derive(). *plan is undefined on a problem. [MAIN] */
