@@ -12,3 +12,4 @@ BOARD_RUN     := qemu-system-arm -M $(BOARD) -icount shift=6,align=off,sleep=off
                  -semihosting-config enable=on,target=native -serial stdio $(MPS2_LINK) -kernel
 
 include hal/cortex_m/cortex_m.mk
+BOARD_LDFLAGS_UNIT := -Wl,--defsym=test_stack_size=0x10000
