@@ -136,7 +136,7 @@ float demand_stop_s(const struct params *params)
     const float force_n = 0.5f * params->pads * params->friction_static_ratio * demand_load_end_n(params);
     const float mass_kg = params->inertia_kg_m2 / (params->radius_m * params->radius_m);
 
-    return speed.kind == DEMAND_INERTIA ? mass_kg * fmath_abs(demand_begin(&speed)) / force_n : 0.0f;
+    return speed.kind == DEMAND_INERTIA && force_n > 0.0f ? mass_kg * fmath_abs(demand_begin(&speed)) / force_n : 0.0f;
 }
 
 void demand_hold_load(struct params *params, float force_n)
