@@ -1,6 +1,7 @@
 #include "analysis/perturbation.h"
 
 #include "base/fmath.h"
+#include "model/demand.h"
 
 #define TURN 4294967296.0f
 #define LOG2_E 1.44269504f
@@ -23,7 +24,11 @@ static struct complex32 response_printed(float stiffness, float damping, unsigne
 
 bool perturbation_is_served(const struct params *params, const struct scale *scale)
 {
-    return (int)params->load_profile == LOAD_CONSTANT && (int)params->speed_profile == SPEED_CONSTANT &&
+    const struct demand load = demand_of_load(params);
+    const struct demand speed = demand_of_speed(params);
+
+    return load.kind == DEMAND_CONSTANT && load.dither == 0.0f && speed.kind == DEMAND_CONSTANT &&
+           speed.dither == 0.0f && demand_end(&load) == load.from && demand_end(&speed) == speed.from &&
            params->y_initial_m == 0.0f && params->yd_initial_m_per_s == 0.0f && params->speed_m_per_s != 0.0f &&
            scale->normal_damping == 0.0f && scale->stiffness > 0.0f && !scale->has_floor;
 }

@@ -3,6 +3,7 @@
 
 #include "analysis/floquet.h"
 #include "base/fmath.h"
+#include "model/demand.h"
 #include "model/sine.h"
 
 #define RATE_MARGIN 1e-4f    /* of the growth rate: 6e-4 a period is too close to call */
@@ -19,12 +20,10 @@ static float hypotenuse(float a, float b) { return fmath_sqrt(a * a + b * b); }
 
 static struct predictor_finish find_finish(const struct params *params, const struct scale *scale)
 {
-    const bool load_ends = (int)params->load_profile == LOAD_STEP || (int)params->load_profile == LOAD_RAMP;
-    const bool speed_ends = (int)params->speed_profile != SPEED_CONSTANT;
     struct predictor_finish finish;
 
-    finish.load = (load_ends ? params->load_end_n : params->load_n) / scale->load_n;
-    finish.speed = fmath_abs(speed_ends ? params->speed_end_m_per_s : params->speed_m_per_s) / scale->speed_m_per_s;
+    finish.load = demand_load_end_n(params) / scale->load_n;
+    finish.speed = fmath_abs(demand_speed_end_m_per_s(params)) / scale->speed_m_per_s;
     finish.friction = scale->friction + scale->friction_slope * finish.speed;
     finish.is_on_floor = scale->has_floor && finish.friction <= scale->friction_floor;
     finish.friction = fmath_abs(finish.is_on_floor ? scale->friction_floor : finish.friction);
@@ -45,28 +44,70 @@ static struct oscillation turned(struct oscillation start, float time_s, const s
     return (struct oscillation){start.y * cosine + start.w * sine, start.w * cosine - start.y * sine};
 }
 
+/* The load goes from one value to another in a straight line, from the moment up to which free is known. */
+static struct oscillation driven(struct oscillation free, float before, float after, float length_s,
+                                 const struct scale *scale)
+{
+    const float rise = length_s > 0.0f ? (after - before) / (length_s * scale->omega_rad_per_s) : 0.0f;
+
+    if (length_s <= 0.0f) {
+        free.y += before - after;
+        return free;
+    }
+    free.w -= rise;
+    free = turned(free, length_s, scale);
+    free.w += rise;
+    return free;
+}
+
+/* What the changes of the load leave behind, from the moment of the first to that of the last; *length_s tells how long that is. */
+static struct oscillation left_by_changes(const struct demand *load, const struct scale *scale, float *length_s)
+{
+    struct oscillation free = {0.0f, 0.0f};
+
+    *length_s = 0.0f;
+    if (load->kind == DEMAND_STEP || load->kind == DEMAND_RAMP || load->kind == DEMAND_PULSES) {
+        const float before = demand_begin(load) / scale->load_n;
+
+        *length_s = load->kind == DEMAND_RAMP     ? load->end_s - load->start_s
+                    : load->kind == DEMAND_PULSES ? load->rise_s
+                                                  : 0.0f;
+        return driven(free, before, demand_end(load) / scale->load_n, *length_s, scale);
+    }
+    for (uint32_t i = 1u; load->kind == DEMAND_TABLE && i < load->table->count; i++) {
+        const struct params_point *point = &load->table->points[i];
+        const float before = demand_limit(load, point[-1].value) / scale->load_n;
+        const float after = demand_limit(load, point->value) / scale->load_n;
+
+        free = driven(free, before, after, point->time_s - point[-1].time_s, scale);
+        *length_s += point->time_s - point[-1].time_s;
+    }
+    return free;
+}
+
+/* A lag answers an oscillation at wn by 1/(1 + i wn lag). */
+static struct oscillation lagged(struct oscillation free, float lag_s, const struct scale *scale)
+{
+    const float turn = lag_s * scale->omega_rad_per_s;
+    const float size = 1.0f + turn * turn;
+
+    return (struct oscillation){(free.y - turn * free.w) / size, (free.w + turn * free.y) / size};
+}
+
 /* Amplitude of the free normal oscillation that the onset of the load leaves behind, in n_max/ke, before damping. */
 static float onset_amplitude(const struct params *params, const struct scale *scale)
 {
-    const float before = params->load_n / scale->load_n;
-    const float after = params->load_end_n / scale->load_n;
-    struct oscillation free = {params->y_initial_m / scale->normal_m - before,
+    const struct demand load = demand_of_load(params);
+    const float start_s = load.kind == DEMAND_TABLE ? load.table->points[0].time_s : load.start_s;
+    float length_s;
+    const struct oscillation changes = lagged(left_by_changes(&load, scale, &length_s), load.lag_s, scale);
+    struct oscillation free = {params->y_initial_m / scale->normal_m - demand_begin(&load) / scale->load_n,
                                params->yd_initial_m_per_s / (scale->normal_m * scale->omega_rad_per_s)};
 
-    if ((int)params->load_profile == LOAD_STEP) {
-        free = turned(free, params->load_start_s, scale);
-        free.y += before - after;
-    } else if ((int)params->load_profile == LOAD_RAMP) {
-        const float length_s = params->load_end_s - params->load_start_s;
-        const float rise = length_s > 0.0f ? (after - before) / (length_s * scale->omega_rad_per_s) : 0.0f;
-
-        free = turned(free, params->load_start_s, scale);
-        free.w -= rise;
-        free = turned(free, length_s, scale);
-        free.w += rise;
-        free.y += length_s > 0.0f ? 0.0f : before - after;
+    if (load.kind != DEMAND_CONSTANT && load.kind != DEMAND_SINE) {
+        free = turned(turned(free, start_s, scale), length_s, scale);
     }
-    return hypotenuse(free.y, free.w);
+    return hypotenuse(free.y + changes.y, free.w + changes.w);
 }
 
 /* Response of the pad to a normal oscillation of amplitude 1 at a multiple of wn, per unit of friction. */
@@ -84,17 +125,24 @@ static float transient_speed(const struct params *params, const struct scale *sc
     const float z = fmath_sqrt(scale->stiffness);
     const float damping = scale->damping + finish->slope;
     const float forced = amplitude * transfer(scale, damping, 1.0f) * (scale->stiffness < 1.0f ? -1.0f : 1.0f);
+    const struct demand load = demand_of_load(params);
     float mean = finish->load;
+    float length_s = 0.0f;
     float offset;
+
+    if (load.kind == DEMAND_RAMP || load.kind == DEMAND_PULSES) {
+        (void)left_by_changes(&load, scale, &length_s);
+    }
 
     if (z == 0.0f) {
         return 0.0f;
     }
-    if ((int)params->load_profile == LOAD_RAMP && params->load_end_s > params->load_start_s) {
+    if (length_s > 0.0f) {
         /* A ramp kicks at its start and at its end, each time by its rate. */
-        mean = 2.0f * finish->load / ((params->load_end_s - params->load_start_s) * scale->omega_rad_per_s * z);
+        mean = 2.0f * finish->load / (length_s * scale->omega_rad_per_s * z);
         mean = fmath_min(mean, finish->load);
     }
+    mean /= hypotenuse(1.0f, params->load_lag_s * scale->omega_rad_per_s * z);
     offset = finish->friction * (mean / scale->stiffness - forced) - params->x_initial_m / scale->length_m;
     return hypotenuse(z * offset, params->xd_initial_m_per_s / scale->speed_m_per_s);
 }
@@ -170,8 +218,21 @@ struct prediction predictor_predict(const struct params *params, const struct sc
     return prediction;
 }
 
+/* A sine on the load adds what it moves. */
+static void add_sine(struct predictor_response *response, const struct scale *scale, float friction, float damping,
+                     float frequency_hz, float amplitude_n)
+{
+    const float turns = frequency_hz * scale->step_s * (float)scale->steps_per_period;
+    const float size = hypotenuse(1.0f - turns * turns, scale->normal_damping * turns);
+    const float swing = amplitude_n / scale->load_n / fmath_max(size, 1.0f / RESPONSE_MAX);
+
+    response->load_speed += swing * turns;
+    response->load_response += friction * swing * turns * transfer(scale, damping, turns);
+}
+
 struct predictor_response predictor_response(const struct params *params, const struct scale *scale)
 {
+    const struct demand load = demand_of_load(params);
     const struct predictor_finish finish = find_finish(params, scale);
     const float damping = scale->damping + finish.slope;
     const float friction = fmath_max(scale->friction, finish.friction);
@@ -181,13 +242,13 @@ struct predictor_response predictor_response(const struct params *params, const 
         response.gain = BOUNCE_GAIN;
     }
 
-    if ((int)params->load_profile == LOAD_SINE) {
-        const float turns = params->load_frequency_hz * scale->step_s * (float)scale->steps_per_period;
-        const float size = hypotenuse(1.0f - turns * turns, scale->normal_damping * turns);
-        const float swing = params->load_end_n / scale->load_n / fmath_max(size, 1.0f / RESPONSE_MAX);
+    if (load.kind == DEMAND_SINE) {
+        const float turn = load.lag_s * load.frequency_hz * (2.0f * FMATH_PI);
 
-        response.load_speed = swing * turns;
-        response.load_response = friction * swing * turns * transfer(scale, damping, turns);
+        add_sine(&response, scale, friction, damping, load.frequency_hz, load.to / hypotenuse(1.0f, turn));
+    }
+    if (load.dither > 0.0f) {
+        add_sine(&response, scale, friction, damping, load.dither_hz, load.dither);
     }
     return response;
 }

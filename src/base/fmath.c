@@ -157,6 +157,20 @@ float fmath_exp2(float value)
     return (sum * x + 1.0f) * power_of_two((int)whole);
 }
 
+/* The series of 1 - e^-x about 0, where the difference would lose its digits. */
+float fmath_decay(float value)
+{
+    float sum = 1.0f / 11.0f;
+
+    if (value > 1.0f) {
+        return 1.0f - fmath_exp2(value * -1.44269504f);
+    }
+    for (unsigned i = 10u; i > 1u; i--) {
+        sum = (1.0f - value * sum) / (float)i;
+    }
+    return value * (1.0f - value * sum);
+}
+
 int32_t fmath_round_i32(float value)
 {
     const int32_t whole = (int32_t)value;

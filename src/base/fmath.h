@@ -25,6 +25,9 @@ float fmath_log2(float value);
 /* 2^value, error below 2e-7 of it; a whole number gives its power exactly. Beyond -126 ... 127 it is that of the limit. */
 float fmath_exp2(float value);
 
+/* 1 - e^-value for value >= 0, error below 3e-7 of it: a small value keeps its digits. */
+float fmath_decay(float value);
+
 /* Nearest integer, ties away from zero; the caller keeps |value| below 2^31. */
 int32_t fmath_round_i32(float value);
 

@@ -11,6 +11,8 @@ const struct params_info params_table[] = {
 #undef PARAM
 };
 
+static const struct params_problem no_problem = {ERROR_OK, NULL, 0.0f, 0.0f};
+
 const size_t params_count = sizeof params_table / sizeof params_table[0];
 
 void params_default(struct params *params)
@@ -18,6 +20,7 @@ void params_default(struct params *params)
 #define PARAM(id, field, symbol, unit, standard, low, high, change, help) params->field = standard;
 #include "model/params.def"
 #undef PARAM
+    memset(params->tables, 0, sizeof params->tables);
 }
 
 static bool is_named(const char *known, const char *name, size_t length)
@@ -121,9 +124,59 @@ bool params_accepts(const struct params_info *info, float value)
     return value >= info->low && value <= info->high && (!params_is_whole(info) || (float)(int32_t)value == value);
 }
 
+struct params_problem params_blame(enum error error, const char *symbol, float low, float high)
+{
+    size_t length = 0u;
+
+    while (symbol[length] != '\0') {
+        length++;
+    }
+    return (struct params_problem){error, params_find(symbol, length), low, high};
+}
+
+const struct params_info *params_table_values(enum params_table_index index)
+{
+    return index == PARAMS_TABLE_LOAD ? params_find("N0", 2u) : params_find("v0", 2u);
+}
+
+float params_table_end_s(const struct params_points *table)
+{
+    return table->count > 0u ? table->points[table->count - 1u].time_s : 0.0f;
+}
+
+struct params_problem params_check_point(enum params_table_index index, float end_s, const struct params_point *point)
+{
+    const struct params_info *info = params_table_values(index);
+
+    if (!(point->time_s >= end_s && point->time_s <= PARAMS_TIME_MAX)) {
+        return params_blame(ERROR_OUT_OF_RANGE, index == PARAMS_TABLE_LOAD ? "t1" : "tv1", end_s, PARAMS_TIME_MAX);
+    }
+    if (!params_accepts(info, point->value)) {
+        return (struct params_problem){ERROR_OUT_OF_RANGE, info, info->low, info->high};
+    }
+    return no_problem;
+}
+
+/* As if its points came one after the other. */
+static struct params_problem check_table(const struct params *params, enum params_table_index index)
+{
+    const struct params_points *table = &params->tables[index];
+    struct params_problem problem = no_problem;
+    float end_s = 0.0f;
+
+    if (table->count > PARAMS_POINTS_MAX) {
+        return params_blame(ERROR_TABLE_FULL, index == PARAMS_TABLE_LOAD ? "load" : "speed", 0.0f, 0.0f);
+    }
+    for (uint32_t i = 0u; i < table->count && problem.error == ERROR_OK; i++) {
+        problem = params_check_point(index, end_s, &table->points[i]);
+        end_s = table->points[i].time_s;
+    }
+    return problem;
+}
+
 struct params_problem params_check(const struct params *params)
 {
-    struct params_problem problem = {ERROR_OK, NULL, 0.0f, 0.0f};
+    struct params_problem problem = no_problem;
 
     for (const struct params_info *info = params_table; info < params_table + params_count; info++) {
         if (!params_accepts(info, params_value(params, info))) {
@@ -131,7 +184,8 @@ struct params_problem params_check(const struct params *params)
             return problem;
         }
     }
-    return problem;
+    problem = check_table(params, PARAMS_TABLE_LOAD);
+    return problem.error != ERROR_OK ? problem : check_table(params, PARAMS_TABLE_SPEED);
 }
 
 const struct params_info *params_restart_change(const struct params *from, const struct params *to)

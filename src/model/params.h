@@ -1,5 +1,5 @@
 /* Everything that can be set, in SI units: one struct, one default set, one range check, all expanded from params.def.
- * Values are single precision; a choice holds the index of its name. */
+ * Values are single precision; a choice holds the index of its name. Beside them stand two tables of breakpoints. */
 #ifndef MODEL_PARAMS_H
 #define MODEL_PARAMS_H
 
@@ -16,16 +16,33 @@ enum {
 #undef PARAM
 };
 
+enum { PARAMS_POINTS_MAX = 64 };
+
+/* A profile by its breakpoints: straight lines between them, the first value before them, the last one after. Two points of one
+ * time are a jump. Those beyond count are zeros. */
+struct params_points {
+    uint32_t count;
+    struct params_point {
+        float time_s; /* since reset, not before the point before; 0 to PARAMS_TIME_MAX */
+        float value;  /* in the unit and range of N0, or of v0 */
+    } points[PARAMS_POINTS_MAX];
+};
+
+#define PARAMS_TIME_MAX 1e6f
+
+enum params_table_index { PARAMS_TABLE_LOAD, PARAMS_TABLE_SPEED, PARAMS_TABLES };
+
 struct params {
 #define PARAM(id, field, symbol, unit, standard, low, high, change, help) float field;
 #include "model/params.def"
 #undef PARAM
+    struct params_points tables[PARAMS_TABLES];
 };
 
 /* Choices by name; their order is that of the names in params.def. */
 enum { CONTACT_BILATERAL, CONTACT_NO_PULL, CONTACT_LIFT };
-enum { LOAD_CONSTANT, LOAD_STEP, LOAD_RAMP, LOAD_SINE };
-enum { SPEED_CONSTANT, SPEED_STEP, SPEED_RAMP };
+enum { LOAD_CONSTANT, LOAD_STEP, LOAD_RAMP, LOAD_SINE, LOAD_PULSES, LOAD_TABLE };
+enum { SPEED_CONSTANT, SPEED_STEP, SPEED_RAMP, SPEED_SINE, SPEED_PULSES, SPEED_TABLE, SPEED_INERTIA };
 enum { ARITH_F32, ARITH_Q27 };
 enum { NORMAL_RK4, NORMAL_EXACT };
 enum { METHOD_EVENT, METHOD_NAIVE };
@@ -50,7 +67,7 @@ struct params_problem {
 extern const struct params_info params_table[];
 extern const size_t params_count;
 
-/* Sets every field to its default. [ANY] */
+/* Sets every field to its default; the tables are empty. [ANY] */
 void params_default(struct params *params);
 
 /* Finds a parameter by symbol or field name of the given length; NULL if there is none. [MAIN] */
@@ -76,10 +93,23 @@ const char *params_choice_name(const struct params_info *info, unsigned index, s
  * checked here. [MAIN] */
 enum error params_parse(const struct params_info *info, const char *text, size_t length, float *value);
 
-/* Checks every field against its range; a choice must be a whole number. NaN lies in no range. [MAIN] */
+/* A problem of the parameter with this symbol. [MAIN] */
+struct params_problem params_blame(enum error error, const char *symbol, float low, float high);
+
+/* The parameter whose unit and range a table's values have: N0 or v0. [ANY] */
+const struct params_info *params_table_values(enum params_table_index index);
+
+/* Time of a table's last point, 0 if it is empty. [ANY] */
+float params_table_end_s(const struct params_points *table);
+
+/* May a table whose last point has this time go on with that one? Else what is wrong: the value, with N0 or v0 to blame; or
+ * the time, with t1 or tv1. [MAIN] */
+struct params_problem params_check_point(enum params_table_index index, float end_s, const struct params_point *point);
+
+/* Checks every field against its range, and every point; a choice must be a whole number. NaN lies in no range. [MAIN] */
 struct params_problem params_check(const struct params *params);
 
-/* Do two sets differ in a parameter that needs a restart? Returns the first, or NULL. [MAIN] */
+/* Do two sets differ in a parameter that needs a restart? Tables never do. Returns the first, or NULL. [MAIN] */
 const struct params_info *params_restart_change(const struct params *from, const struct params *to);
 
 #endif

@@ -2,18 +2,9 @@
 #include "model/scale.h"
 
 #include "base/fmath.h"
+#include "model/demand.h"
 
 static const struct params_problem no_problem = {ERROR_OK, NULL, 0.0f, 0.0f};
-
-static struct params_problem blame(enum error error, const char *symbol, float low, float high)
-{
-    size_t length = 0u;
-
-    while (symbol[length] != '\0') {
-        length++;
-    }
-    return (struct params_problem){error, params_find(symbol, length), low, high};
-}
 
 uint32_t scale_steps_per_period(const struct params *params) { return 16u << (uint32_t)params->steps_per_period; }
 
@@ -22,45 +13,30 @@ float scale_peak_factor(const struct params *params)
     return 1.0f + (SCALE_ROUGHNESS_PEAK * params->roughness_ratio + params->runout_ratio);
 }
 
-static float profile_peak_n(const struct params *params)
+float scale_load_peak_n(const struct params *params)
 {
-    switch ((int)params->load_profile) {
-    case LOAD_STEP:
-    case LOAD_RAMP:
-        return fmath_max(params->load_n, params->load_end_n);
-    case LOAD_SINE:
-        return params->load_n + params->load_end_n;
-    default:
-        return params->load_n;
-    }
-}
+    const struct demand load = demand_of_load(params);
 
-float scale_load_peak_n(const struct params *params) { return profile_peak_n(params) * scale_peak_factor(params); }
+    return demand_peak(&load) * scale_peak_factor(params);
+}
 
 float scale_speed_peak_m_per_s(const struct params *params)
 {
-    const float start = fmath_abs(params->speed_m_per_s);
+    const struct demand speed = demand_of_speed(params);
 
-    return (int)params->speed_profile == SPEED_CONSTANT ? start
-                                                        : fmath_max(start, fmath_abs(params->speed_end_m_per_s));
+    return demand_peak(&speed);
 }
 
 /* Parameters that only make sense together. */
 static struct params_problem check_together(const struct params *params)
 {
-    if ((int)params->load_profile == LOAD_RAMP && params->load_end_s < params->load_start_s) {
-        return blame(ERROR_OUT_OF_RANGE, "t2", params->load_start_s, 1e6f);
-    }
-    if ((int)params->speed_profile == SPEED_RAMP && params->speed_end_s < params->speed_start_s) {
-        return blame(ERROR_OUT_OF_RANGE, "tv2", params->speed_start_s, 1e6f);
-    }
     if (params->safe_s > 0.0f && params->safe_s < params->stale_s) {
-        return blame(ERROR_OUT_OF_RANGE, "safe", params->stale_s, 1e4f);
+        return params_blame(ERROR_OUT_OF_RANGE, "safe", params->stale_s, 1e4f);
     }
     if ((int)params->tangential_method == METHOD_NAIVE && (int)params->normal_method != NORMAL_RK4) {
-        return blame(ERROR_NOT_SERVED, "method", 0.0f, 0.0f);
+        return params_blame(ERROR_NOT_SERVED, "method", 0.0f, 0.0f);
     }
-    return no_problem;
+    return demand_check(params);
 }
 
 static void choose_units(const struct params *params, float impedance, struct scale *scale)
@@ -99,34 +75,34 @@ static struct params_problem check_fit(const struct params *params, const struct
     const float stiffness_max = SCALE_STIFFNESS_MAX / (float)(1u << scale->length_shift);
 
     if (scale_load_peak_n(params) > scale->load_n) {
-        return blame(ERROR_OUT_OF_SCALE, "N0", 0.0f, scale->load_n / scale_peak_factor(params));
+        return params_blame(ERROR_OUT_OF_SCALE, "N0", 0.0f, scale->load_n / scale_peak_factor(params));
     }
     if (scale_speed_peak_m_per_s(params) > scale->speed_m_per_s) {
-        return blame(ERROR_OUT_OF_SCALE, "v0", -scale->speed_m_per_s, scale->speed_m_per_s);
+        return params_blame(ERROR_OUT_OF_SCALE, "v0", -scale->speed_m_per_s, scale->speed_m_per_s);
     }
     if (!(scale->stiffness <= stiffness_max)) {
-        return blame(ERROR_OUT_OF_SCALE, "kt", 0.0f,
-                     stiffness_max * params->stiffness_normal_n_per_m - params->stiffness_caliper_n_per_m);
+        return params_blame(ERROR_OUT_OF_SCALE, "kt", 0.0f,
+                            stiffness_max * params->stiffness_normal_n_per_m - params->stiffness_caliper_n_per_m);
     }
     if (!(scale->friction <= SCALE_FRICTION_MAX)) {
-        return blame(ERROR_OUT_OF_SCALE, "mu_s", 0.0f,
-                     SCALE_FRICTION_MAX / scale->friction * params->friction_static_ratio);
+        return params_blame(ERROR_OUT_OF_SCALE, "mu_s", 0.0f,
+                            SCALE_FRICTION_MAX / scale->friction * params->friction_static_ratio);
     }
     if (scale->has_floor && !(scale->friction_floor <= SCALE_FRICTION_MAX)) {
-        return blame(ERROR_OUT_OF_SCALE, "mu_floor", -1e30f,
-                     SCALE_FRICTION_MAX / scale->friction_floor * params->friction_floor_ratio);
+        return params_blame(ERROR_OUT_OF_SCALE, "mu_floor", -1e30f,
+                            SCALE_FRICTION_MAX / scale->friction_floor * params->friction_floor_ratio);
     }
     if (!(fmath_abs(scale->friction_slope) <= SCALE_FRICTION_MAX)) {
         const float limit =
             SCALE_FRICTION_MAX / fmath_abs(scale->friction_slope) * fmath_abs(params->friction_slope_s_per_m);
-        return blame(ERROR_OUT_OF_SCALE, "alpha", -limit, limit);
+        return params_blame(ERROR_OUT_OF_SCALE, "alpha", -limit, limit);
     }
     return no_problem;
 }
 
 static struct params_problem check_initial(const char *symbol, float value, float limit)
 {
-    return fmath_abs(value) <= limit ? no_problem : blame(ERROR_OUT_OF_SCALE, symbol, -limit, limit);
+    return fmath_abs(value) <= limit ? no_problem : params_blame(ERROR_OUT_OF_SCALE, symbol, -limit, limit);
 }
 
 /* A plant that starts outside its domain could only fault. */
@@ -154,7 +130,7 @@ static struct params_problem check_step(const struct scale *scale)
         fmath_max(fmath_max(1.0f, fmath_sqrt(scale->stiffness)), fmath_max(scale->damping, scale->normal_damping));
 
     if (!(scale->step * fastest <= SCALE_STEP_MAX)) {
-        return blame(ERROR_STEP_TOO_LARGE, "spp", 0.0f, 0.0f);
+        return params_blame(ERROR_STEP_TOO_LARGE, "spp", 0.0f, 0.0f);
     }
     return no_problem;
 }

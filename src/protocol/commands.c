@@ -164,6 +164,7 @@ static void command_demo(struct console *console) { demo_obey(console); }
 static void command_list(struct console *console) { settings_list(console); }
 static void command_get(struct console *console) { settings_get(console); }
 static void command_set(struct console *console) { settings_set(console); }
+static void command_table(struct console *console) { settings_table(console); }
 static void command_preset(struct console *console) { settings_preset(console); }
 static void command_defaults(struct console *console) { settings_defaults(console); }
 static void command_reset(struct console *console) { settings_reset(console); }

@@ -74,6 +74,7 @@ void analyse_obey(struct console *console);
 void settings_list(struct console *console);
 void settings_get(struct console *console);
 void settings_set(struct console *console);
+void settings_table(struct console *console);
 void settings_preset(struct console *console);
 void settings_defaults(struct console *console);
 void settings_reset(struct console *console);
@@ -81,6 +82,13 @@ void settings_reset(struct console *console);
 /* "error bad-number|out-of-range <symbol>=<word>: <what would do>" */
 void settings_refuse_value(struct console *console, enum error error, const struct params_info *info,
                            struct token word);
+
+/* Orders a change to this set, whose answer comes later; or refuses it. */
+void settings_order(struct console *console, const struct params *params);
+
+/* " <name> points=<n>" of the table that the arguments name. */
+void settings_write_table(struct console *console);
+
 void settings_answer(struct console *console, const struct executive_report *report);
 
 #endif

@@ -186,7 +186,7 @@ static void tell_beginning(struct console *console, const struct sim_plan *plan)
     text_write(text, "Squeal began at t = ");
     text_product(text, console->demo.squeal_step, plan->scale.step_s, DIGITS);
     text_write(text, " s, v0 = ");
-    text_f32(text, profile_value(&plan->speed, console->demo.squeal_step) * plan->scale.speed_m_per_s, DIGITS);
+    text_f32(text, profile_value(&plan->speed.profile, console->demo.squeal_step) * plan->scale.speed_m_per_s, DIGITS);
     text_write(text, " m/s.");
     console_end(console);
 }

@@ -62,7 +62,8 @@ void link_put_value(struct bytes_writer *writer, float value);
 /* The set that COMMIT would put into force, which follows the set in force whenever that changes. */
 struct params *link_staged(struct link *link);
 
-/* CRC-32 over the floats of a set in the order of the table, low byte first. */
+/* CRC-32 over the floats of a set in the order of the table, low byte first, and behind them over each table of breakpoints:
+ * their count as a byte, and their times and values in turn. */
 uint32_t link_crc(const struct params *params);
 
 /* One for each row of messages.def. */

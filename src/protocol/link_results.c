@@ -57,7 +57,7 @@ static void put_no_trial(struct bytes_writer *writer)
 
 static void put_point(struct bytes_writer *writer, const struct study *study)
 {
-    const struct scan *scan = &study->scan;
+    const struct scan *scan = &study->its.scan;
 
     bytes_put_u32(writer, study->done - 1u);
     for (unsigned i = 0u; i < SCAN_AXES; i++) {
@@ -101,7 +101,7 @@ static void send_result(struct link *link)
         put_point(&payload, study);
         send(link, LINK_POINT, &payload);
     } else if (study->kind == STUDY_MARGIN) {
-        put_borders(&payload, &study->margin.margin);
+        put_borders(&payload, &study->its.margin.margin);
         send(link, LINK_BORDER, &payload);
     }
 }
@@ -145,7 +145,7 @@ static void put_share(struct bytes_writer *writer, const struct study *study)
     link_put_value(writer, has_share ? share.share : nothing());
     link_put_value(writer, has_share ? share.low : nothing());
     link_put_value(writer, has_share ? share.high : nothing());
-    bytes_put_u32(writer, has_share ? study->occurrence.clamped : 0u);
+    bytes_put_u32(writer, has_share ? study->its.occurrence.clamped : 0u);
 }
 
 static void end(struct link *link, enum error reason)

@@ -4,18 +4,34 @@
 #include "model/presets.h"
 #include "protocol/link_parts.h"
 
+static uint32_t add_f32(uint32_t crc, float value)
+{
+    uint8_t bytes[4];
+    struct bytes_writer writer = {.bytes = bytes, .capacity = sizeof bytes};
+
+    bytes_put_f32(&writer, value);
+    return crc32_add(crc, bytes, sizeof bytes);
+}
+
+static uint32_t add_table(uint32_t crc, const struct params_points *table)
+{
+    const uint8_t count = (uint8_t)table->count;
+
+    crc = crc32_add(crc, &count, sizeof count);
+    for (uint32_t i = 0u; i < table->count; i++) {
+        crc = add_f32(add_f32(crc, table->points[i].time_s), table->points[i].value);
+    }
+    return crc;
+}
+
 uint32_t link_crc(const struct params *params)
 {
     uint32_t crc = 0u;
 
     for (size_t i = 0u; i < params_count; i++) {
-        uint8_t bytes[4];
-        struct bytes_writer writer = {.bytes = bytes, .capacity = sizeof bytes};
-
-        bytes_put_f32(&writer, params_value(params, &params_table[i]));
-        crc = crc32_add(crc, bytes, sizeof bytes);
+        crc = add_f32(crc, params_value(params, &params_table[i]));
     }
-    return crc;
+    return add_table(add_table(crc, &params->tables[PARAMS_TABLE_LOAD]), &params->tables[PARAMS_TABLE_SPEED]);
 }
 
 struct params *link_staged(struct link *link)

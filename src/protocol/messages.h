@@ -4,7 +4,7 @@
 
 enum {
     LINK_MAJOR = 1,
-    LINK_MINOR = 1,
+    LINK_MINOR = 2,
     LINK_REPLY = 0x80, /* added to the request's type */
     LINK_ERROR = 0xff,
     LINK_SAMPLE = 0x40, /* by itself, like the next three */
@@ -15,7 +15,9 @@ enum {
     LINK_NO_INDEX = 255,  /* nothing to blame; no second axis of SCAN; all parameters of MARGIN */
     LINK_STEP_REQUEST = 14,
     LINK_STEP_REPLY = 45,
-    LINK_PIECE = 232 /* bytes of a run that go over at a time */
+    LINK_PIECE = 232,      /* bytes of a run that go over at a time */
+    LINK_TABLE_PIECE = 16, /* points of a table that do */
+    LINK_TABLE_REQUEST = 132
 };
 
 enum link_message {
@@ -36,6 +38,9 @@ enum { LINK_SYMBOL_WIDTH = 24, LINK_UNIT_WIDTH = 48, LINK_HELP_WIDTH = 149 };
 
 /* What READ reads. */
 enum link_place { LINK_IN_FORCE, LINK_STAGED, LINK_NOW, LINK_PLACE_COUNT };
+
+/* What TABLE does: tells that of the set in force or of the staged one, or puts points into the staged one. */
+enum link_table_act { LINK_TABLE_IN_FORCE, LINK_TABLE_STAGED, LINK_TABLE_PUT, LINK_TABLE_ACTS };
 
 /* Beside the kind of load of a STEP: an explicit start, which leaves the safe state. */
 enum { LINK_STARTS = 0x80 };

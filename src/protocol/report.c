@@ -4,6 +4,7 @@
 #include "base/compiler.h"
 #include "base/decimal.h"
 #include "base/fmath.h"
+#include "model/demand.h"
 
 #define NOT_A_NUMBER (fmath_from_bits(0x7fc00000u))
 
@@ -169,12 +170,10 @@ static struct prediction predict(const struct executive_report *report, const st
         return plan->prediction;
     }
     if (report->input.holds_load) {
-        params.load_profile = LOAD_CONSTANT;
-        params.load_n = report->input.load * plan->scale.load_n;
+        demand_hold_load(&params, report->input.load * plan->scale.load_n);
     }
     if (report->input.holds_speed) {
-        params.speed_profile = SPEED_CONSTANT;
-        params.speed_m_per_s = report->input.speed * plan->scale.speed_m_per_s;
+        demand_hold_speed(&params, report->input.speed * plan->scale.speed_m_per_s);
     }
     return predictor_predict(&params, &plan->scale);
 }

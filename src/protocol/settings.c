@@ -133,11 +133,29 @@ static void refuse_word(struct console *console, enum error error, const struct 
     settings_refuse_value(console, error, info, bad);
 }
 
+void settings_order(struct console *console, const struct params *params)
+{
+    struct params_problem problem = params_check(params); /* a pace out of all range has no load */
+
+    if (problem.error != ERROR_OK) {
+        refuse_problem(console, &problem, params);
+        return;
+    }
+    if (!streaming_admits(console, params)) {
+        return;
+    }
+    problem = executive_change(console->executive, params, true, &console->was_reset);
+    if (problem.error != ERROR_OK) {
+        refuse_problem(console, &problem, params);
+        return;
+    }
+    console_start_task(console, CONSOLE_TASK_SETTING);
+}
+
 void settings_set(struct console *console)
 {
     struct params params = *executive_params(console->executive);
     const struct params_info *info;
-    struct params_problem problem;
     struct token bad;
     enum error error;
 
@@ -155,20 +173,7 @@ void settings_set(struct console *console)
         refuse_word(console, error == ERROR_OK ? ERROR_USAGE : error, info, bad);
         return;
     }
-    problem = params_check(&params); /* a pace out of all range has no load */
-    if (problem.error != ERROR_OK) {
-        refuse_problem(console, &problem, &params);
-        return;
-    }
-    if (!streaming_admits(console, &params)) {
-        return;
-    }
-    problem = executive_change(console->executive, &params, true, &console->was_reset);
-    if (problem.error != ERROR_OK) {
-        refuse_problem(console, &problem, &params);
-        return;
-    }
-    console_start_task(console, CONSOLE_TASK_SETTING);
+    settings_order(console, &params);
 }
 
 /* Stops and resets to a set, the counters of the run included. */
@@ -262,12 +267,14 @@ void settings_answer(struct console *console, const struct executive_report *rep
     console_begin_ok(console);
     if (token_is(name, "set")) {
         write_assigned(console, executive_params(console->executive));
+    } else if (token_is(name, "table")) {
+        settings_write_table(console);
     } else if (token_is(name, "preset")) {
         text_put(console->text, ' ');
         token_write(console->text, token_first(console->arguments));
     }
     text_key_u64(console->text, "generation", report->generation);
-    if (token_is(name, "set")) {
+    if (token_is(name, "set") || token_is(name, "table")) {
         text_key_text(console->text, "reset", console->was_reset ? "yes" : "no");
     }
     console_end(console);

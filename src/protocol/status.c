@@ -3,6 +3,7 @@
 
 #include "base/decimal.h"
 #include "base/fmath.h"
+#include "model/demand.h"
 #include "protocol/commands.h"
 #include "protocol/report.h"
 
@@ -78,10 +79,8 @@ static void write_groups(struct text *text, const struct sim_plan *plan)
 {
     const struct params *params = &plan->params;
     const float impedance = plan->scale.force_n / plan->scale.speed_m_per_s;
-    const bool load_ends = (int)params->load_profile == LOAD_STEP || (int)params->load_profile == LOAD_RAMP;
-    const bool speed_ends = (int)params->speed_profile != SPEED_CONSTANT;
-    const float load_n = load_ends ? params->load_end_n : params->load_n;
-    const float speed_m_per_s = speed_ends ? params->speed_end_m_per_s : params->speed_m_per_s;
+    const float load_n = demand_load_end_n(params);
+    const float speed_m_per_s = demand_speed_end_m_per_s(params);
 
     report_field(text, "C", plan->scale.damping);
     report_field(text, "Z2", plan->scale.stiffness);

@@ -170,7 +170,7 @@ static void refuse(struct console *console)
     const struct study *study = &console->work->study;
 
     console_begin_error(console, study->problem.error);
-    values_write_problem(console->text, &study->problem, &study->margin.base, token_first(""));
+    values_write_problem(console->text, &study->problem, &study->its.margin.base, token_first(""));
     console_end(console);
     end(console);
 }

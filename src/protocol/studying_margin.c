@@ -76,7 +76,7 @@ static void write_side(struct text *text, const char *name, const struct margin 
 void studying_write_borders(struct console *console)
 {
     const struct study *study = &console->work->study;
-    const struct margin *margin = &study->margin.margin;
+    const struct margin *margin = &study->its.margin.margin;
     struct text *text = console->text;
 
     console_begin_body(console);
@@ -96,5 +96,5 @@ void studying_write_borders(struct console *console)
 void studying_write_margin_answer(struct text *text, const struct study *study)
 {
     text_key_u64(text, "parameters", study->done);
-    text_key_text(text, "now", study->margin.is_loud ? "squeal" : "quiet");
+    text_key_text(text, "now", study->its.margin.is_loud ? "squeal" : "quiet");
 }

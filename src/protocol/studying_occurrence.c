@@ -75,7 +75,7 @@ void studying_write_draw(struct console *console)
     for (unsigned i = 0u; i < OCCURRENCE_AMOUNTS; i++) {
         const char *name = occurrence_name((enum occurrence_amount)i);
 
-        report_field(text, i == OCCURRENCE_LOAD ? "N_factor" : name, study->occurrence.draw.values[i]);
+        report_field(text, i == OCCURRENCE_LOAD ? "N_factor" : name, study->its.occurrence.draw.values[i]);
     }
     studying_write_outcome(text, study);
     console_end(console);
@@ -88,7 +88,7 @@ void studying_write_share(struct text *text, const struct study *study)
     report_field(text, "share", share.share);
     report_field(text, "low", share.low);
     report_field(text, "high", share.high);
-    text_key_text(text, "scatter", study->occurrence.occurrence.is_uniform ? "uniform" : "normal");
-    text_key_u64(text, "seed", study->occurrence.occurrence.seed);
-    text_key_u64(text, "clamped", study->occurrence.clamped);
+    text_key_text(text, "scatter", study->its.occurrence.occurrence.is_uniform ? "uniform" : "normal");
+    text_key_u64(text, "seed", study->its.occurrence.occurrence.seed);
+    text_key_u64(text, "clamped", study->its.occurrence.clamped);
 }

@@ -64,7 +64,7 @@ void studying_scan(struct console *console)
 void studying_write_point(struct console *console)
 {
     const struct study *study = &console->work->study;
-    const struct scan *scan = &study->scan;
+    const struct scan *scan = &study->its.scan;
     const uint32_t point = study->done - 1u;
     struct text *text = console->text;
 

@@ -9,6 +9,15 @@ bool executive_has_order(const struct executive *executive)
     return publish_taken(&executive->publish) != executive->publish.generation;
 }
 
+/* A plan to look at before it is ordered, in the place of the order that comes next: it is too large for the stack. */
+static struct sim_plan *candidate(struct executive *executive)
+{
+    struct executive_order *order = publish_back(&executive->publish);
+
+    BASE_ASSERT(order != NULL);
+    return &order->plan;
+}
+
 static void give_order(struct executive *executive)
 {
     struct executive_order *order = publish_back(&executive->publish);
@@ -23,10 +32,11 @@ static void give_order(struct executive *executive)
     executive->draft.measure_steps = 0u;
 }
 
-static void order_restart(struct executive *executive, const struct sim_plan *plan)
+/* To the candidate. */
+static void order_restart(struct executive *executive)
 {
-    executive->draft.plan = *plan;
-    executive->draft.substeps = (uint32_t)plan->params.steps_per_tick;
+    executive->draft.plan = *candidate(executive);
+    executive->draft.substeps = (uint32_t)executive->draft.plan.params.steps_per_tick;
     executive_stop(executive);
     executive->draft.is_reset = true;
     executive->draft.is_new_plan = true;
@@ -38,11 +48,10 @@ static void order_restart(struct executive *executive, const struct sim_plan *pl
 
 struct params_problem executive_reset(struct executive *executive, const struct params *params)
 {
-    struct sim_plan plan;
-    const struct params_problem problem = sim_plan_make(&plan, params, NULL);
+    const struct params_problem problem = sim_plan_make(candidate(executive), params, NULL);
 
     if (problem.error == ERROR_OK) {
-        order_restart(executive, &plan);
+        order_restart(executive);
     }
     return problem;
 }
@@ -55,12 +64,11 @@ void executive_snapshot(struct executive *executive)
 
 struct params_problem executive_restore(struct executive *executive)
 {
-    struct sim_plan plan;
-    const struct params_problem problem = snapshot_check(executive->image, &plan);
+    const struct params_problem problem = snapshot_check(executive->image, candidate(executive));
 
     if (problem.error == ERROR_OK) {
         executive->draft.is_restore = true;
-        order_restart(executive, &plan);
+        order_restart(executive);
     }
     return problem;
 }
@@ -70,7 +78,6 @@ struct params_problem executive_set(struct executive *executive, const struct pa
 {
     const struct params_info *moved = params_restart_change(&executive->draft.plan.params, params);
     struct params_problem problem = params_check(params);
-    struct sim_plan plan;
 
     if (was_reset != NULL) {
         *was_reset = false;
@@ -88,9 +95,9 @@ struct params_problem executive_set(struct executive *executive, const struct pa
         }
         return problem;
     }
-    problem = sim_plan_make(&plan, params, &executive->draft.plan.scale);
+    problem = sim_plan_make(candidate(executive), params, &executive->draft.plan.scale);
     if (problem.error == ERROR_OK) {
-        executive->draft.plan = plan;
+        executive->draft.plan = *candidate(executive);
         executive->draft.substeps = (uint32_t)params->steps_per_tick;
         executive->draft.is_new_plan = true;
         give_order(executive);

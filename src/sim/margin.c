@@ -16,20 +16,19 @@ enum {
 bool margin_covers(const struct params *params, const struct params_info *info)
 {
     const int load = (int)params->load_profile;
-    const bool load_ends = load == LOAD_STEP || load == LOAD_RAMP;
-    const bool speed_ends = (int)params->speed_profile != SPEED_CONSTANT;
+    const int speed = (int)params->speed_profile;
 
     if (IS(load_n)) {
-        return !load_ends;
+        return load == LOAD_CONSTANT || load == LOAD_SINE;
     }
     if (IS(load_end_n)) {
-        return load != LOAD_CONSTANT;
+        return load != LOAD_CONSTANT && load != LOAD_TABLE;
     }
     if (IS(speed_m_per_s)) {
-        return !speed_ends;
+        return speed == SPEED_CONSTANT || speed == SPEED_SINE || speed == SPEED_INERTIA;
     }
     if (IS(speed_end_m_per_s)) {
-        return speed_ends;
+        return speed == SPEED_STEP || speed == SPEED_RAMP || speed == SPEED_PULSES || speed == SPEED_SINE;
     }
     if (IS(friction_floor_ratio)) {
         return params->friction_floor_ratio > -1e29f;

@@ -3,6 +3,7 @@
 
 #include "base/fixed.h"
 #include "base/fmath.h"
+#include "sim/turns.h"
 
 #define STEPS_MAX 4.0e9f /* later than this is never */
 
@@ -21,9 +22,15 @@ static void set_times(struct profile *profile, float start_s, float end_s, const
 /* A ramp without length is a step. */
 static void jump_if_sudden(struct profile *profile)
 {
-    if (profile->kind == PROFILE_RAMP && profile->per_step == 0.0f) {
-        profile->kind = PROFILE_STEP;
+    if (profile->kind == DEMAND_RAMP && profile->per_step == 0.0f) {
+        profile->kind = DEMAND_STEP;
     }
+}
+
+/* Leaves a value that is within them as it is, to the bit. */
+static float limited(const struct profile *profile, float value)
+{
+    return value < profile->low ? profile->low : value > profile->high ? profile->high : value;
 }
 
 /* A ramp ends two steps late at most: rounding may make it a step longer than it is. */
@@ -31,18 +38,21 @@ static void set_end(struct profile *profile)
 {
     const uint64_t start = profile->start;
 
-    profile->last = profile->kind == PROFILE_CONSTANT ? profile->from : profile->to;
+    profile->last = limited(profile, profile->kind == DEMAND_CONSTANT ? profile->from : profile->to);
     switch (profile->kind) {
-    case PROFILE_STEP:
+    case DEMAND_STEP:
         profile->end = start + 2u;
         break;
-    case PROFILE_RAMP:
+    case DEMAND_RAMP:
         profile->end = start + (uint32_t)fmath_min(1.0f / profile->per_step, STEPS_MAX) + 3u;
         break;
-    case PROFILE_SINE:
+    case DEMAND_SINE:
         profile->end = UINT64_MAX;
         break;
-    case PROFILE_CONSTANT:
+    case DEMAND_CONSTANT:
+    case DEMAND_PULSES:
+    case DEMAND_TABLE:
+    case DEMAND_INERTIA:
     default:
         profile->end = 0u;
         break;
@@ -61,38 +71,38 @@ static float share_at(const struct profile *profile, uint64_t step)
     return step == profile->start ? profile->first : step == profile->start + 1u ? profile->second : 1.0f;
 }
 
-void profile_load(struct profile *profile, const struct params *params, const struct scale *scale)
+static void set_shares(struct profile *profile, bool is_shared)
 {
-    float late;
+    const float late = profile->start_fraction;
 
-    profile->kind = (enum profile_kind)(int)params->load_profile;
-    profile->from = params->load_n / scale->load_n;
-    profile->to = params->load_end_n / scale->load_n;
-    set_times(profile, params->load_start_s, params->load_end_s, scale);
-    jump_if_sudden(profile);
-    late = profile->start_fraction;
-    profile->first = 0.5f * (2.0f - late) * (1.0f - late);
-    profile->second = 0.5f * (2.0f - late) * (1.0f + late);
-    if (profile->kind == PROFILE_SINE) {
-        const float turns = params->load_frequency_hz * scale->step_s;
-        const uint32_t whole = (uint32_t)turns;
-        const float scaled = (turns - (float)whole) * 4294967296.0f; /* in 2^-32 turns, exact but for its own bits */
-        const uint32_t high = (uint32_t)scaled;
-
-        profile->turns_per_step = ((uint64_t)high << 32) | (uint32_t)((scaled - (float)high) * 4294967296.0f);
-    }
-    set_end(profile);
+    profile->first = is_shared ? 0.5f * (2.0f - late) * (1.0f - late) : late < 0.5f ? 1.0f : 0.0f;
+    profile->second = is_shared ? 0.5f * (2.0f - late) * (1.0f + late) : 1.0f;
 }
 
-void profile_speed(struct profile *profile, const struct params *params, const struct scale *scale)
+/* The ends of a ramp may lie beyond the limits, and so may a sine. */
+static void set_values(struct profile *profile, const struct demand *demand, float unit)
 {
-    profile->kind = (enum profile_kind)(int)params->speed_profile;
-    profile->from = params->speed_m_per_s / scale->speed_m_per_s;
-    profile->to = params->speed_end_m_per_s / scale->speed_m_per_s;
-    set_times(profile, params->speed_start_s, params->speed_end_s, scale);
+    const bool is_sine = profile->kind == DEMAND_SINE;
+    const bool goes_on = profile->kind == DEMAND_RAMP || is_sine;
+
+    profile->from = (goes_on ? demand->from + demand->offset : demand_begin(demand)) / unit;
+    profile->to = (is_sine   ? demand->to
+                   : goes_on ? demand->to + demand->offset
+                             : demand_limit(demand, demand->to)) /
+                  unit;
+    profile->low = demand->low / unit;
+    profile->high = demand->high / unit;
+}
+
+void profile_derive(struct profile *profile, const struct demand *demand, const struct scale *scale, float unit,
+                    bool is_shared)
+{
+    profile->kind = demand->kind <= DEMAND_SINE ? demand->kind : DEMAND_CONSTANT;
+    set_times(profile, demand->start_s, demand->end_s, scale);
     jump_if_sudden(profile);
-    profile->first = profile->start_fraction < 0.5f ? 1.0f : 0.0f;
-    profile->second = 1.0f;
+    set_values(profile, demand, unit);
+    set_shares(profile, is_shared);
+    profile->turns_per_step = profile->kind == DEMAND_SINE ? turns_in_step(demand->frequency_hz * scale->step_s) : 0u;
     set_end(profile);
 }
 
@@ -110,24 +120,27 @@ static float ramp_value(const struct profile *profile, uint64_t step)
 /* The sine sets in as a step does, with what it is worth at that time. */
 static float sine_value(const struct profile *profile, uint64_t step)
 {
-    const uint64_t turns = step * profile->turns_per_step + (profile->turns_per_step >> 1);
+    const uint32_t turns = turns_at_middle(profile->turns_per_step, step);
 
-    return profile->from + profile->to * fmath_sine_turns((uint32_t)(turns >> 32)) * share_at(profile, step);
+    return profile->from + profile->to * fmath_sine_turns(turns) * share_at(profile, step);
 }
 
 float profile_moving_value(const struct profile *profile, uint64_t step)
 {
     if (step < profile->start) {
-        return profile->from;
+        return limited(profile, profile->from);
     }
     switch (profile->kind) {
-    case PROFILE_RAMP:
-        return ramp_value(profile, step);
-    case PROFILE_SINE:
-        return sine_value(profile, step);
-    case PROFILE_STEP:
+    case DEMAND_RAMP:
+        return limited(profile, ramp_value(profile, step));
+    case DEMAND_SINE:
+        return limited(profile, sine_value(profile, step));
+    case DEMAND_STEP:
         return between(profile, share_at(profile, step));
-    case PROFILE_CONSTANT:
+    case DEMAND_CONSTANT:
+    case DEMAND_PULSES:
+    case DEMAND_TABLE:
+    case DEMAND_INERTIA:
     default:
         return profile->from;
     }
@@ -142,6 +155,8 @@ void profile_q27_derive(struct profile_q27 *derived, const struct profile *profi
     derived->kind = profile->kind;
     derived->from = fixed_from_float(profile->from, 27);
     derived->to = fixed_from_float(profile->to, 27);
+    derived->low = fixed_from_float(profile->low, 27);
+    derived->high = fixed_from_float(profile->high, 27);
     derived->first = fixed_from_float(profile->first, 30);
     derived->second = fixed_from_float(profile->second, 30);
     derived->start = profile->start;
@@ -182,25 +197,33 @@ static int32_t ramp_value_q27(const struct profile_q27 *profile, uint64_t step)
 
 static int32_t sine_value_q27(const struct profile_q27 *profile, uint64_t step)
 {
-    const uint64_t turns = step * profile->turns_per_step + (profile->turns_per_step >> 1);
-    const int32_t swing = share_of(profile->to, fmath_sine_turns_q30((uint32_t)(turns >> 32)));
+    const uint32_t turns = turns_at_middle(profile->turns_per_step, step);
+    const int32_t swing = share_of(profile->to, fmath_sine_turns_q30(turns));
 
     return profile->from + share_of(swing, share_at_q27(profile, step));
+}
+
+static int32_t limited_q27(const struct profile_q27 *profile, int32_t value)
+{
+    return value < profile->low ? profile->low : value > profile->high ? profile->high : value;
 }
 
 int32_t profile_q27_moving_value(const struct profile_q27 *profile, uint64_t step)
 {
     if (step < profile->start) {
-        return profile->from;
+        return limited_q27(profile, profile->from);
     }
     switch (profile->kind) {
-    case PROFILE_RAMP:
-        return ramp_value_q27(profile, step);
-    case PROFILE_SINE:
-        return sine_value_q27(profile, step);
-    case PROFILE_STEP:
+    case DEMAND_RAMP:
+        return limited_q27(profile, ramp_value_q27(profile, step));
+    case DEMAND_SINE:
+        return limited_q27(profile, sine_value_q27(profile, step));
+    case DEMAND_STEP:
         return profile->from + share_of((int64_t)profile->to - profile->from, share_at_q27(profile, step));
-    case PROFILE_CONSTANT:
+    case DEMAND_CONSTANT:
+    case DEMAND_PULSES:
+    case DEMAND_TABLE:
+    case DEMAND_INERTIA:
     default:
         return profile->from;
     }

@@ -1,5 +1,6 @@
-/* Brake force and disc speed over time: the acting process. Times are in model steps since reset, values in the model's
- * units; a value is that of the middle of its step, t = (i + 1/2) h, and is held over it.
+/* What is asked of brake force and disc speed over time, in its plainest forms: constant, step, ramp, sine. Times are in model
+ * steps since reset, values in the model's units, with offset and limits; a value is that of the middle of its step,
+ * t = (i + 1/2) h, and is held over it. Pulses and tables are sim/curve.h, what becomes of it all sim/acting.h.
  *
  * A load step inside a model step f h after its start is spread over two, so that its impulse and its first moment are
  * those of the real one: n = from + (to - from) (2 - f)(1 - f)/2, then from + (to - from) (2 - f)(1 + f)/2. What remains
@@ -11,14 +12,13 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-#include "model/params.h"
+#include "model/demand.h"
 #include "model/scale.h"
 
-enum profile_kind { PROFILE_CONSTANT, PROFILE_STEP, PROFILE_RAMP, PROFILE_SINE };
-
 struct profile {
-    enum profile_kind kind;
+    enum demand_kind kind;   /* of those four */
     float from, to;          /* sine: mean and amplitude */
+    float low, high;         /* of a ramp and of a sine; the ends of the others are within them */
     float first, second;     /* share of the change in the step that contains t1, and in the next */
     uint32_t start;          /* whole steps before t1 */
     float start_fraction;    /* rest of t1, 0 to 1 step */
@@ -28,9 +28,10 @@ struct profile {
     uint64_t end;
 };
 
-/* Profiles of a checked set. [MAIN] */
-void profile_load(struct profile *profile, const struct params *params, const struct scale *scale);
-void profile_speed(struct profile *profile, const struct params *params, const struct scale *scale);
+/* Profile of a checked demand, of which any other kind is taken for a constant; unit is that of the model, N or m/s. is_shared:
+ * a step is spread, else it moves to the grid. [MAIN] */
+void profile_derive(struct profile *profile, const struct demand *demand, const struct scale *scale, float unit,
+                    bool is_shared);
 
 /* Value of a profile before its end. */
 float profile_moving_value(const struct profile *profile, uint64_t step);
@@ -43,8 +44,8 @@ static inline float profile_value(const struct profile *profile, uint64_t step)
 
 /* The same profile in integers: values in Q4.27, a place on the ramp in Q60. */
 struct profile_q27 {
-    enum profile_kind kind;
-    int32_t from, to;
+    enum demand_kind kind;
+    int32_t from, to, low, high;
     int32_t first, second; /* shares in Q30; the second reaches 9/8 */
     uint32_t start;
     uint32_t length;         /* ramp: steps after which it is over */
@@ -64,12 +65,6 @@ int32_t profile_q27_moving_value(const struct profile_q27 *profile, uint64_t ste
 static inline int32_t profile_q27_value(const struct profile_q27 *profile, uint64_t step)
 {
     return step >= profile->end ? profile->last : profile_q27_moving_value(profile, step);
-}
-
-/* Does the value still move at this step or later, other than by a sine? [ANY] */
-static inline bool profile_is_moving(const struct profile *profile, uint64_t step)
-{
-    return profile->kind != PROFILE_SINE && step < profile->end;
 }
 
 #endif

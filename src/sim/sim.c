@@ -1,6 +1,7 @@
 /* One plant, one step at a time. */
 #include "sim/sim.h"
 
+#include "base/compiler.h"
 #include "base/fixed.h"
 #include "base/fmath.h"
 #include "base/hash.h"
@@ -36,10 +37,9 @@ struct params_problem sim_plan_make(struct sim_plan *plan, const struct params *
     plan->arithmetic = (uint8_t)params->arithmetic;
     step_f32_configure(&plan->f32, params, &plan->scale);
     step_q27_configure(&plan->q27, params, &plan->scale);
-    profile_load(&plan->load, params, &plan->scale);
-    profile_speed(&plan->speed, params, &plan->scale);
-    profile_q27_derive(&plan->load_q27, &plan->load);
-    profile_q27_derive(&plan->speed_q27, &plan->speed);
+    acting_of_load(&plan->load, params, &plan->scale);
+    acting_of_speed(&plan->speed, params, &plan->scale);
+    plan->has_state = plan->load.has_state || plan->speed.has_state;
     texture_derive(&plan->texture, params, &plan->scale);
     plan->load_limit = 1.0f / scale_peak_factor(params);
     plan->load_limit_q27 = to_q27(plan->load_limit);
@@ -58,14 +58,33 @@ static void renew_texture(struct sim *sim, int32_t disc)
     }
 }
 
+/* A controller's, or the set's. */
+BASE_INLINE float load_f32(const struct sim *sim)
+{
+    return sim->input.holds_load ? sim->input.load : acting_value_f32(&sim->plan->load, &sim->load, sim->step);
+}
+
+BASE_INLINE float speed_f32(const struct sim *sim)
+{
+    return sim->input.holds_speed ? sim->input.speed : acting_value_f32(&sim->plan->speed, &sim->speed, sim->step);
+}
+
+BASE_INLINE int32_t load_q27(const struct sim *sim)
+{
+    return sim->input.holds_load ? sim->input.load_q27 : acting_value_q27(&sim->plan->load, &sim->load, sim->step);
+}
+
+BASE_INLINE int32_t speed_q27(const struct sim *sim)
+{
+    return sim->input.holds_speed ? sim->input.speed_q27 : acting_value_q27(&sim->plan->speed, &sim->speed, sim->step);
+}
+
 /* Load and speed held over the step to come. */
 static struct step_f32_input input_f32(struct sim *sim)
 {
     const struct sim_plan *plan = sim->plan;
-    struct step_f32_input input;
+    struct step_f32_input input = {.load = load_f32(sim), .speed = speed_f32(sim)};
 
-    input.load = sim->input.holds_load ? sim->input.load : profile_value(&plan->load, sim->step);
-    input.speed = sim->input.holds_speed ? sim->input.speed : profile_value(&plan->speed, sim->step);
     if (plan->texture.is_active) {
         renew_texture(sim, (int32_t)(input.speed * (float)(1 << PLANT_FRACTION_BITS))); /* the speed is within 1 */
         input.load = texture_load_f32(input.load, sim->texture);
@@ -76,15 +95,79 @@ static struct step_f32_input input_f32(struct sim *sim)
 static struct step_q27_input input_q27(struct sim *sim)
 {
     const struct sim_plan *plan = sim->plan;
-    struct step_q27_input input;
+    struct step_q27_input input = {.load = load_q27(sim), .speed = speed_q27(sim)};
 
-    input.load = sim->input.holds_load ? sim->input.load_q27 : profile_q27_value(&plan->load_q27, sim->step);
-    input.speed = sim->input.holds_speed ? sim->input.speed_q27 : profile_q27_value(&plan->speed_q27, sim->step);
     if (plan->texture.is_active) {
         renew_texture(sim, input.speed);
         input.load = texture_load_q27(input.load, sim->texture);
     }
     return input;
+}
+
+/* What a controller holds is where lag and inertia go on from. */
+static void follow_f32(struct sim *sim)
+{
+    const struct sim_plan *plan = sim->plan;
+
+    if (sim->input.holds_load) {
+        acting_take_f32(&sim->load, sim->input.load);
+    } else {
+        acting_advance_f32(&plan->load, &sim->load, sim->step, 0.0f);
+    }
+    if (sim->input.holds_speed) {
+        acting_take_f32(&sim->speed, sim->input.speed);
+    } else {
+        acting_advance_f32(&plan->speed, &sim->speed, sim->step, step_f32_friction(&sim->f32, &plan->f32));
+    }
+}
+
+static void follow_q27(struct sim *sim)
+{
+    const struct sim_plan *plan = sim->plan;
+
+    if (sim->input.holds_load) {
+        acting_take_q27(&sim->load, sim->input.load_q27);
+    } else {
+        acting_advance_q27(&plan->load, &sim->load, sim->step, 0);
+    }
+    if (sim->input.holds_speed) {
+        acting_take_q27(&sim->speed, sim->input.speed_q27);
+    } else {
+        acting_advance_q27(&plan->speed, &sim->speed, sim->step, step_q27_friction(&sim->q27, &plan->q27));
+    }
+}
+
+/* The step is made: what has a state of its own goes on. */
+static BASE_NOINLINE void follow(struct sim *sim)
+{
+    if (sim->plan->arithmetic == ARITH_Q27) {
+        follow_q27(sim);
+    } else {
+        follow_f32(sim);
+    }
+}
+
+/* A lag or an inertia that a set brings goes on from what acts now. */
+static bool begins_to_follow(const struct acting *before, const struct acting *after)
+{
+    return (after->has_lag && !before->has_lag) || (after->kind == DEMAND_INERTIA && before->kind != DEMAND_INERTIA);
+}
+
+static void hand_over(struct sim *sim, const struct sim_plan *plan)
+{
+    const bool follows_load = begins_to_follow(&sim->plan->load, &plan->load);
+    const bool follows_speed = begins_to_follow(&sim->plan->speed, &plan->speed);
+
+    if (follows_load && plan->arithmetic == ARITH_Q27) {
+        acting_take_q27(&sim->load, load_q27(sim));
+    } else if (follows_load) {
+        acting_take_f32(&sim->load, load_f32(sim));
+    }
+    if (follows_speed && plan->arithmetic == ARITH_Q27) {
+        acting_take_q27(&sim->speed, speed_q27(sim));
+    } else if (follows_speed) {
+        acting_take_f32(&sim->speed, speed_f32(sim));
+    }
 }
 
 static void reset_plant(struct sim *sim)
@@ -166,6 +249,8 @@ void sim_reset(struct sim *sim, const struct sim_plan *plan)
     sim->watch = (struct watch){0};
     sim->safe_load = 0.0f;
     sim->safe_load_q27 = 0;
+    acting_reset(&sim->load, &plan->load);
+    acting_reset(&sim->speed, &plan->speed);
     reset_plant(sim);
     detector_reset(&sim->detector, &plan->detector, &sim->output);
 }
@@ -194,6 +279,7 @@ void sim_apply(struct sim *sim, const struct sim_plan *plan)
 {
     struct detector_config config;
 
+    hand_over(sim, plan);
     sim->plan = plan;
     config = detector_config_now(sim);
     if (sim->input.holds_load && sim->input.load > plan->load_limit) {
@@ -230,11 +316,14 @@ static void begin_safe_state(struct sim *sim)
 {
     struct input_state *input = &sim->input;
 
-    if (!input->holds_load) {
-        input->holds_load = true;
-        input->load = profile_value(&sim->plan->load, sim->step);
-        input->load_q27 = profile_q27_value(&sim->plan->load_q27, sim->step);
+    if (!input->holds_load && sim->plan->arithmetic == ARITH_Q27) {
+        input->load_q27 = load_q27(sim);
+        input->load = (float)input->load_q27 / (float)(1 << PLANT_FRACTION_BITS);
+    } else if (!input->holds_load) {
+        input->load = load_f32(sim);
+        input->load_q27 = to_q27(input->load);
     }
+    input->holds_load = true;
     sim->safe_load = input->load;
     sim->safe_load_q27 = input->load_q27;
 }
@@ -322,6 +411,9 @@ bool sim_step_unhashed(struct sim *sim)
         sim->fault = SIM_FAULT_DOMAIN;
         detector_set_diverged(&sim->detector);
         return true;
+    }
+    if (sim->plan->has_state) {
+        follow(sim);
     }
     sim->step++;
     if (sim->plan->texture.runout != 0) {

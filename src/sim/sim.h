@@ -11,29 +11,29 @@
 #include "model/scale.h"
 #include "model/step_f32.h"
 #include "model/step_q27.h"
+#include "sim/acting.h"
 #include "sim/detector.h"
 #include "sim/input.h"
 #include "sim/measure.h"
-#include "sim/profile.h"
 #include "sim/sample.h"
 #include "sim/texture.h"
 #include "sim/watch.h"
 
 /* A set with everything derived from it, made in main and handed to the interrupt as a whole. */
 struct sim_plan {
-    struct params params;
     struct scale scale;
     uint8_t arithmetic; /* ARITH_F32 or ARITH_Q27: which of the pairs below is in use */
     struct step_f32_coeffs f32;
     struct step_q27_coeffs q27;
-    struct profile load, speed;
-    struct profile_q27 load_q27, speed_q27;
     struct texture texture;
     float load_limit; /* of a force held by a controller, under this texture */
     int32_t load_limit_q27;
     struct watch_config watch;
     struct detector_config detector;
     struct prediction prediction;
+    bool has_state; /* load or speed */
+    struct acting load, speed;
+    struct params params; /* last, like the curves: what the interrupt reads lies near */
 };
 
 /* Checks a set and derives its plan. latched as in scale_derive(). *plan is undefined on a problem. [MAIN] */
@@ -59,9 +59,10 @@ struct sim {
     struct step_f32 f32; /* one of the two, as the plan says */
     struct step_q27 q27;
     struct plant_output output;
-    struct input_state input; /* of a controller, in place of the profiles */
-    struct watch watch;       /* over the controller */
-    float safe_load;          /* force with which the safe state began */
+    struct acting_state load, speed; /* of what has one */
+    struct input_state input;        /* of a controller, in place of the profiles */
+    struct watch watch;              /* over the controller */
+    float safe_load;                 /* force with which the safe state began */
     int32_t safe_load_q27;
     struct texture_angle angle; /* of the disc; counted from reset, while there is run-out */
     int32_t texture;            /* that acts on the load */

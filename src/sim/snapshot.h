@@ -12,15 +12,15 @@
 #include "sim/sim.h"
 
 enum {
-    SNAPSHOT_LAYOUT = 1, /* another number with every change of the bytes or of what they mean */
-    SNAPSHOT_SIZE = 2739
+    SNAPSHOT_LAYOUT = 2, /* another number with every change of the bytes or of what they mean */
+    SNAPSHOT_SIZE = 3927
 };
 
 /* The run of a plant that is in no fault, and the demands that wait for their steps. [ISR] */
 void snapshot_take(uint8_t image[SNAPSHOT_SIZE], const struct sim *sim, const struct input_queue *waiting);
 
 /* Can a run go on from this image? ERROR_OK, and the plan to go on with; or WRONG_CRC; WRONG_LAYOUT; what is wrong with the set
- * in it; OUT_OF_RANGE, and no parameter to blame, for a state that no run leads to, and that might do harm. Some 4 KB of
+ * in it; OUT_OF_RANGE, and no parameter to blame, for a state that no run leads to, and that might do harm. Some 5 KB of
  * stack. [MAIN] */
 struct params_problem snapshot_check(const uint8_t image[SNAPSHOT_SIZE], struct sim_plan *plan);
 

@@ -22,6 +22,8 @@ enum {
 #define SPEED_SUM_MAX (INT64_C(1) << 34) /* of a frame: 2^13 steps of 2^20 */
 #define UNIT_MAX 1.0625f
 #define LOAD_MAX 2.0f
+#define SUM_MAX 1.125f /* a lag may follow a load step at once */
+#define SUM_MAX_Q56 (INT64_C(9) << 53)
 #define AMPLITUDE_MAX 256.0f
 #define REST_MAX_F32 1.0f
 
@@ -100,6 +102,18 @@ static bool is_sound_held(const struct sim *sim)
            sim->watch.state <= WATCH_SAFE && sim->watch.silence <= WATCH_SILENCE_MAX && sim->watch.ramp <= WATCH_ALL;
 }
 
+/* A sum goes on from what it is by parts of what the scale holds. */
+static bool is_sound_sum(const struct acting_sum *sum, int64_t most_q56)
+{
+    return is_within_f32(sum->value, SUM_MAX) && is_within_f32(sum->rest, UNIT_MAX) && sum->value_q56 <= most_q56 &&
+           sum->value_q56 >= -most_q56;
+}
+
+static bool is_sound_acting(const struct acting_state *acting)
+{
+    return is_sound_sum(&acting->lag, SUM_MAX_Q56) && is_sound_sum(&acting->inertia, SUM_MAX_Q56);
+}
+
 static bool is_sound_waiting(const struct input_queue *waiting)
 {
     if (waiting->count > INPUT_QUEUE_MAX) {
@@ -160,7 +174,7 @@ bool snapshot_is_sound(const struct sim *sim, const struct input_queue *waiting,
 
     return is_sound_plant && sim->fault == SIM_FAULT_NONE && sim->step <= STEPS_MAX && sim->v10_step <= STEPS_MAX &&
            sim->v10_fraction_q15 <= FRACTION_MAX_Q15 && is_mode(sim->output.mode) && sim->angle.rest <= REST_MAX &&
-           is_within(sim->texture, TEXTURE_MAX) && is_sound_held(sim) && is_sound_waiting(waiting) &&
-           sim->measure.done <= sim->measure.planned && sim->measure.planned <= STEPS_MAX &&
-           is_sound_detector(&sim->detector, &plan->detector);
+           is_within(sim->texture, TEXTURE_MAX) && is_sound_held(sim) && is_sound_acting(&sim->load) &&
+           is_sound_acting(&sim->speed) && is_sound_waiting(waiting) && sim->measure.done <= sim->measure.planned &&
+           sim->measure.planned <= STEPS_MAX && is_sound_detector(&sim->detector, &plan->detector);
 }

@@ -146,6 +146,19 @@ static void walk_output(struct snapshot_walk *walk, struct plant_output *output)
     walk_flag(walk, &output->is_gap_held);
 }
 
+static void walk_sum(struct snapshot_walk *walk, struct acting_sum *sum)
+{
+    walk_f32(walk, &sum->value);
+    walk_f32(walk, &sum->rest);
+    walk_i64(walk, &sum->value_q56);
+}
+
+static void walk_acting(struct snapshot_walk *walk, struct acting_state *acting)
+{
+    walk_sum(walk, &acting->lag);
+    walk_sum(walk, &acting->inertia);
+}
+
 static void walk_counters(struct snapshot_walk *walk, struct sim_counters *counters)
 {
     walk_u32(walk, &counters->events);
@@ -324,11 +337,24 @@ void snapshot_walk_run(struct snapshot_walk *walk, struct sim *sim, struct input
     walk_u64(walk, &sim->angle.turns);
     walk_u32(walk, &sim->angle.rest);
     walk_i32(walk, &sim->texture);
+    walk_acting(walk, &sim->load);
+    walk_acting(walk, &sim->speed);
     walk_counters(walk, &sim->counters);
     walk_held(walk, sim);
     walk_measure(walk, &sim->measure);
     walk_detector(walk, &sim->detector);
     walk_waiting(walk, waiting);
+}
+
+/* Points beyond the count hold zeros. */
+static void walk_table(struct snapshot_walk *walk, struct params_points *table)
+{
+    walk_u32(walk, &table->count);
+    walk->is_bad = walk->is_bad || table->count > PARAMS_POINTS_MAX;
+    for (uint32_t i = 0u; i < PARAMS_POINTS_MAX; i++) {
+        walk_f32(walk, &table->points[i].time_s);
+        walk_f32(walk, &table->points[i].value);
+    }
 }
 
 void snapshot_walk_set(struct snapshot_walk *walk, struct params *params, struct scale *latched)
@@ -339,6 +365,8 @@ void snapshot_walk_set(struct snapshot_walk *walk, struct params *params, struct
         walk_f32(walk, &value);
         params_set(params, &params_table[i], value);
     }
+    walk_table(walk, &params->tables[PARAMS_TABLE_LOAD]);
+    walk_table(walk, &params->tables[PARAMS_TABLE_SPEED]);
     walk_f32(walk, &latched->load_n);
     walk_f32(walk, &latched->speed_m_per_s);
     walk_u32(walk, &latched->length_shift);

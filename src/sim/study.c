@@ -60,13 +60,13 @@ static enum study_news tell(struct study *study)
 void study_begin_scan(struct study *study, const struct scan *scan, const struct trial_span *span)
 {
     begin(study, STUDY_SCAN, scan_points(scan), span);
-    study->scan = *scan;
+    study->its.scan = *scan;
 }
 
 static enum study_news go_on_with_scan(struct study *study)
 {
     if (!study->is_trying) {
-        scan_params(&study->scan, study->done, &study->wanted);
+        scan_params(&study->its.scan, study->done, &study->wanted);
     }
     return try(study, &study->wanted) ? tell(study) : STUDY_TRIES;
 }
@@ -77,13 +77,13 @@ void study_begin_occurrence(struct study *study, const struct occurrence *occurr
                             const struct trial_span *span)
 {
     begin(study, STUDY_OCCURRENCE, trials, span);
-    study->occurrence.occurrence = *occurrence;
-    study->occurrence.clamped = 0u;
+    study->its.occurrence.occurrence = *occurrence;
+    study->its.occurrence.clamped = 0u;
 }
 
 static enum study_news go_on_with_occurrence(struct study *study)
 {
-    struct study_occurrence *occurrence = &study->occurrence;
+    struct study_occurrence *occurrence = &study->its.occurrence;
 
     if (!study->is_trying) {
         occurrence_draw(&occurrence->occurrence, study->done, &occurrence->draw);
@@ -128,37 +128,37 @@ void study_begin_margin(struct study *study, const struct params *base, const st
         count++;
     }
     begin(study, STUDY_MARGIN, only != NULL ? 1u : count, span);
-    study->margin.base = *base;
-    study->margin.only = only;
-    study->margin.factor = factor;
-    study->margin.has_base = false;
-    study->margin.is_searching = false;
+    study->its.margin.base = *base;
+    study->its.margin.only = only;
+    study->its.margin.factor = factor;
+    study->its.margin.has_base = false;
+    study->its.margin.is_searching = false;
 }
 
 /* The set itself comes first; if it cannot be had, nothing can. */
 static enum study_news try_base(struct study *study)
 {
-    if (!try(study, &study->margin.base)) {
+    if (!try(study, &study->its.margin.base)) {
         return STUDY_TRIES;
     }
     if (study->problem.error != ERROR_OK) {
         return STUDY_IS_REFUSED;
     }
-    study->margin.has_base = true;
-    study->margin.is_loud = trial_is_loud(&study->trial);
+    study->its.margin.has_base = true;
+    study->its.margin.is_loud = trial_is_loud(&study->trial);
     return STUDY_TRIES;
 }
 
 /* Goes on to the next set to try, or there is none and the borders are known. */
 static enum study_news search(struct study *study)
 {
-    study->margin.is_searching = margin_next(&study->margin.margin, &study->wanted);
-    return study->margin.is_searching ? STUDY_TRIES : tell(study);
+    study->its.margin.is_searching = margin_next(&study->its.margin.margin, &study->wanted);
+    return study->its.margin.is_searching ? STUDY_TRIES : tell(study);
 }
 
 static enum study_news begin_next(struct study *study)
 {
-    struct study_margin *margin = &study->margin;
+    struct study_margin *margin = &study->its.margin;
     const struct params_info *before = study->done == 0u ? NULL : margin->margin.info;
     const struct params_info *info = margin->only != NULL ? margin->only : next_parameter(&margin->base, before);
 
@@ -176,16 +176,16 @@ static enum margin_answer side_of_trial(const struct study *study)
 
 static enum study_news go_on_with_margin(struct study *study)
 {
-    if (!study->margin.has_base) {
+    if (!study->its.margin.has_base) {
         return try_base(study);
     }
-    if (!study->margin.is_searching) {
+    if (!study->its.margin.is_searching) {
         return begin_next(study);
     }
     if (!try(study, &study->wanted)) {
         return STUDY_TRIES;
     }
-    margin_take(&study->margin.margin, side_of_trial(study));
+    margin_take(&study->its.margin.margin, side_of_trial(study));
     return search(study);
 }
 

@@ -68,9 +68,11 @@ struct study {
     struct params wanted;          /* its set, of a scan or a margin */
 
     /* that of its kind */
-    struct scan scan;
-    struct study_margin margin;
-    struct study_occurrence occurrence;
+    union {
+        struct scan scan;
+        struct study_margin margin;
+        struct study_occurrence occurrence;
+    } its;
 };
 
 /* Each begins one, whatever was under way. What they ask for must be in the ranges of scan.h, margin.h, occurrence.h and

@@ -21,12 +21,13 @@ static uint64_t periods_to_steps(const struct trial *trial, uint32_t periods)
     return (uint64_t)periods * trial->plan.scale.steps_per_period;
 }
 
-/* Step from which on the profiles stand still; a sine never does, and one that takes for ever is not waited for. */
-static uint64_t settled_step(const struct trial *trial)
+/* Step from which on load and speed stand still; what is periodic never does, and what takes for ever is not waited for. */
+static uint64_t settled_step(const struct trial *trial, const struct params *params)
 {
     const uint64_t most = periods_to_steps(trial, TRIAL_PERIODS_MAX);
-    const uint64_t load = trial->plan.load.kind == PROFILE_SINE ? 0u : trial->plan.load.end;
-    const uint64_t last = load > trial->plan.speed.end ? load : trial->plan.speed.end;
+    const uint64_t load = acting_settled_step(&trial->plan.load, params, &trial->plan.scale);
+    const uint64_t speed = acting_settled_step(&trial->plan.speed, params, &trial->plan.scale);
+    const uint64_t last = load > speed ? load : speed;
 
     return last < most ? last : most;
 }
@@ -54,17 +55,19 @@ struct params_problem trial_begin(struct trial *trial, const struct params *para
     trial->has_flag = false;
     trial->has_onset = false;
     trial->onset_step = 0u;
-    trial->until = settled_step(trial) + periods_to_steps(trial, span->transient);
+    trial->until = settled_step(trial, params) + periods_to_steps(trial, span->transient);
     return problem;
 }
 
-/* The profiles have come to rest, and stay there. */
+/* Load and speed have come to rest, and stay there. */
 static bool is_settled(const struct trial *trial)
 {
     const struct sim_plan *plan = &trial->plan;
+    const struct sim *sim = &trial->sim;
+    const bool is_q27 = plan->arithmetic == ARITH_Q27;
 
-    return plan->load.kind != PROFILE_SINE && !profile_is_moving(&plan->load, trial->sim.step) &&
-           !profile_is_moving(&plan->speed, trial->sim.step);
+    return acting_is_steady(&plan->load, &sim->load, sim->step, is_q27) &&
+           acting_is_steady(&plan->speed, &sim->speed, sim->step, is_q27);
 }
 
 static bool slips_on(const struct trial *trial)

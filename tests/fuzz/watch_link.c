@@ -163,6 +163,8 @@ static void learn(const struct request *request, const uint8_t *frame)
     watch_client.step = word_at(frame + 3, 4u);
     if (request->type == LINK_STAGE) {
         watch_client.crc = word_at(payload + 5, 4u);
+    } else if (request->type == LINK_TABLE) {
+        watch_client.crc = word_at(payload + 4, 4u);
     } else if (request->type == LINK_REVERT) {
         watch_client.crc = word_at(payload, 4u);
     } else if (request->type == LINK_STEP) {

@@ -185,6 +185,26 @@ with open(folder + "/run.wav", "rb") as file:
     sound = file.read()
 tap.check(sound[:4] == b"RIFF" and struct.unpack("<I", sound[24:28]) == (48000,) and
           (len(sound) - 44) // 2 == int((4000 - 4) * record["step_s"] * 48000), "run.wav has the plant's time")
+with open(folder + "/table.csv", "w") as file:
+    file.write("t[s],N[N]\n0,500\n0.005,3000\n0.005,2000\n0.02,2500.5\n")
+check(tool("record", *FAST, "load=table", "lag=0.001", "speed=inertia", "J=0.5", "v0=1", "--preset", "brake", "--steps", "4000",
+           "--load-table", "table.csv", "--out", "table-run.csv", "--port", "host"), OK, "table-run.json: 4000 steps", "record of a table")
+with open(folder + "/table-run.json") as file:
+    tables = json.load(file)
+tap.check(tables["tables"] == {"load": [[0, 500], [0.005, 3000], [0.005, 2000], [0.02, 2500.5]], "speed": []}, "which keeps its points",
+          str(tables["tables"]))
+for where in ("host", BOARD):
+    check(tool("replay", "table-run.json", "--port", where), OK, "the same bits: " + tables["hash"], f"and makes the same run on {where}")
+with open(folder + "/table-other.json", "w") as file:
+    file.write(open(folder + "/table-run.json").read().replace("2500.5", "2500"))
+check(tool("replay", "table-other.json", "--port", "host"), FAILED, "differs", "but not with another point")
+for text, wanted in (("t[s],N[N]\n1,2\n0,2\n", "bad.csv:3: a time not before"), ("t[s],N[N]\n1,-2\n", "bad.csv:2: a time not before"),
+                     ("t[s],v0[m/s]\n1,2\n", "columns t[s] and N[N]"), ("t[s],N[N]\n" + "1,2\n" * 65, "at most 64 points")):
+    with open(folder + "/bad.csv", "w") as file:
+        file.write(text)
+    check(tool("table", "load", "bad.csv", "--port", "host"), FAILED, wanted, f"a bad table: {wanted}")
+check(tool("table", "load", "table.csv", "--port", "host"), OK, "in force as generation", "a table into force")
+check(tool("table", "speed", "--port", "host"), OK, "t[s],v0[m/s]\n", "and one told")
 check(tool("replay", "run.json", "--port", "host"), OK, "the same bits: " + record["hash"], "replay on the host")
 check(tool("replay", "run.json", "--port", BOARD), OK, "the same bits: " + record["hash"], "and on the board")
 for change, wanted in ((lambda text: text.replace('"N1": 3200', '"N1": 3201'), "differs"),
@@ -478,7 +498,7 @@ def completed(line):
 
 tap.check(set(completed("")) == {*names, "--help"} and completed("rec") == ["record"], "completion of subcommands", str(completed("")))
 tap.check(completed("record --se") == ["--seconds"] and completed("record x --seconds 3 --pres") == ["--preset", "--pressure"], "of options")
-tap.check(completed("get N_") == ["N_max"] and completed("set N_") == ["N_max="] and completed("preset fig6-a0.1") == ["fig6-a0.1"], "of names")
+tap.check(completed("get N_m") == ["N_max"] and completed("set N_m") == ["N_max="] and completed("preset fig6-a0.1") == ["fig6-a0.1"], "of names")
 tap.check(completed("id --port ho") == ["host"] and completed("id --port qemu:mps2-an38") == ["mps2-an385", "mps2-an386"], "of ports")
 
 shutil.rmtree(folder)

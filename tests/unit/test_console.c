@@ -296,9 +296,56 @@ static void check_banner(void)
     tap_check(bench_starts(bench.heard, "squeal 0.0.0 (test) on bench, none: "), "the banner says who is speaking");
     tap_check_text(bench_say("id\r"),
                    "ok id name=squeal version=0.0.0 build=test board=bench core=none emulated=no fpu=yes link=yes "
-                   "params=5 signals=3 "
-                   "commands=6 arith=f32 normal=rk4 method=event states=4 spp=64",
+                   "params=6 signals=3 "
+                   "commands=7 arith=f32 normal=rk4 method=event states=4 spp=64",
                    "and so does id");
+}
+
+static void check_table(void)
+{
+    bench_open();
+    tap_check_text(bench_say("table load\r"), "ok table load points=0", "a table is empty at first");
+    tap_check_text(bench_say("set load table\r"),
+                   "error no-table load=table: load or speed is a table, and that table is "
+                   "empty: table fills it",
+                   "and then no profile");
+    tap_check_text(bench_say("table load 0 0 0.5 3 0.5 2.5\r"), "ok table load points=3 generation=2 reset=yes",
+                   "its points");
+    tap_check_text(bench_say("table load more 1e3 1.5\r"), "ok table load points=4 generation=3 reset=yes", "more");
+    tap_check_text(bench_say("table load more 999 1\r"), "error out-of-range t=999: 1000 .. 1000000 s", "none before");
+    tap_check_text(bench_say("table load 1 2 1.5 -1\r"), "error out-of-range N0=-1: 0 .. 1000000000 N",
+                   "no force below 0");
+    tap_check_text(bench_say("table load 1 2 x 1\r"),
+                   "error bad-number t=x: not a decimal number, or too large for single precision", "no word");
+    tap_check(bench_starts(bench_say("table load 1 2 3\r"), "error usage ") &&
+                  bench_starts(bench_say("table\r"), "error usage ") &&
+                  bench_starts(bench_say("table load more\r"), "error usage ") &&
+                  bench_starts(bench_say("table load clear 1 2\r"), "error usage ") &&
+                  bench_starts(bench_say("table brake 1 2\r"), "error usage "),
+              "times and values in pairs, for one of the two");
+    (void)bench_say("table load\r");
+    tap_check(bench_holds(bench.heard, "0.5 2.5\r\n") && bench_holds(bench.heard, "ok table load points=4"),
+              "what was refused has changed nothing");
+    tap_check(bench_starts(bench_say("set load table\r"), "ok set load=table"), "now the profile can be it");
+    tap_check(bench_starts(bench_say("table load clear\r"), "error no-table "), "which then cannot be cleared");
+    tap_check_text(bench_say("table speed 0 1 2 -1\r"), "ok table speed points=2 generation=5 reset=yes",
+                   "the other one");
+    (void)bench_say("step 10\r");
+    tap_check(bench_holds(bench_say("table load 0 1\r"), "reset=no") &&
+                  bench_holds(bench.heard, "ok table load points=1 "),
+              "a running plant takes it between two steps");
+}
+
+static void check_full_table(void)
+{
+    bench_open();
+    (void)bench_say("table load 1 1\r");
+    for (unsigned i = 0u; i < 21u; i++) {
+        (void)bench_say("table load more 1 1 1 2 1 3\r");
+    }
+    tap_check(bench_holds(bench.heard, "points=64"), "64 points");
+    tap_check_text(bench_say("table load more 2 1\r"), "error table-full 2: a table holds at most 64 points",
+                   "no more");
 }
 
 void test_console(void)
@@ -312,4 +359,6 @@ void test_console(void)
     check_garbage();
     check_paste();
     check_echo();
+    check_table();
+    check_full_table();
 }

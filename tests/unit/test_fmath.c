@@ -120,6 +120,17 @@ static void check_log2(void)
     tap_check_close(fmath_log2(FLT_MAX), 128.0f, 8e-6f, "log2 of the largest float");
 }
 
+static void check_decay(void)
+{
+    tap_check(fmath_decay(0.0f) == 0.0f && fmath_decay(1e-30f) == 1e-30f, "nothing decays in no time");
+    tap_check_close(fmath_decay(1e-4f) / 9.99950002e-5f, 1.0f, 3e-7f, "1 - e^-0.0001 keeps its digits");
+    tap_check_close(fmath_decay(0.5f), 0.39346934f, 1e-7f, "1 - e^-0.5");
+    tap_check_close(fmath_decay(1.0f), 0.632120559f, 2e-7f, "1 - e^-1, the last by its series");
+    tap_check_close(fmath_decay(1.00001f), 0.632124238f, 2e-7f, "right above it");
+    tap_check_close(fmath_decay(3.0f), 0.950212932f, 2e-7f, "1 - e^-3");
+    tap_check(fmath_decay(1e6f) == 1.0f, "all in a long time");
+}
+
 static void check_round(void)
 {
     tap_check(fmath_round_i32(0.5f) == 1 && fmath_round_i32(-0.5f) == -1 && fmath_round_i32(2.5f) == 3 &&
@@ -138,6 +149,7 @@ void test_fmath(void)
     check_sqrt();
     check_sine();
     check_log2();
+    check_decay();
     check_round();
     tap_check(fmath_bits(-2.0f) == 0xc0000000u && fmath_from_bits(0x3f800000u) == 1.0f, "bits and back");
     tap_check(fmath_is_finite(FLT_MAX) && fmath_is_finite(0.0f) && !fmath_is_finite(INFINITE) &&

@@ -7,6 +7,7 @@
 #include "bench.h"
 #include "controller.h"
 #include "model/presets.h"
+#include "protocol/link_parts.h"
 #include "protocol/signals.h"
 #include "tap.h"
 #include "tests.h"
@@ -224,7 +225,7 @@ static void check_settings(void)
 
     bench_open();
     crc = revert();
-    tap_check(crc == 0xb973198du, "the CRC of the defaults is that of a program of its own");
+    tap_check(crc == 0x4ab81da5u, "the CRC of the defaults is that of a program of its own");
     tap_check(stage(n0, 2.0f) != crc && params_value(executive_params(&bench.executive), &params_table[n0]) == 1.0f,
               "staged is not in force");
     tap_check(is_committed(stage(n0, 2.0f), 0u, 1u) && executive_params(&bench.executive)->load_n == 2.0f,
@@ -274,6 +275,94 @@ static void check_refused_settings(void)
               "a preset is a set and a reset");
 }
 
+/* Points of this many steps of 0.5 s and 1 N, from the first on. */
+static void say_points(uint8_t first, uint8_t count)
+{
+    say(LINK_TABLE, LINK_TABLE_REQUEST, 0u);
+    bytes_put_u8(&fields, LINK_TABLE_PUT);
+    bytes_put_u8(&fields, PARAMS_TABLE_LOAD);
+    bytes_put_u8(&fields, first);
+    bytes_put_u8(&fields, count);
+    for (uint32_t i = 0u; i < LINK_TABLE_PIECE; i++) {
+        bytes_put_f32(&fields, 0.5f * (float)(first + i));
+        bytes_put_f32(&fields, (float)(first + i));
+    }
+}
+
+static bool says_table(uint8_t first, uint8_t count, uint8_t length)
+{
+    bool ok = is_answered() && bytes_get_u8(&answer) == PARAMS_TABLE_LOAD && bytes_get_u8(&answer) == first &&
+              bytes_get_u8(&answer) == count && bytes_get_u8(&answer) == length &&
+              bytes_get_u32(&answer) == link_crc(&bench.link.staged);
+
+    for (uint32_t i = 0u; i < LINK_TABLE_PIECE; i++) {
+        ok = bytes_get_f32(&answer) == (i < count ? 0.5f * (float)(first + i) : 0.0f) &&
+             bytes_get_f32(&answer) == (i < count ? (float)(first + i) : 0.0f) && ok;
+    }
+    return ok && bytes_is_spent(&answer);
+}
+
+static void ask_points(uint8_t act, uint8_t table, uint8_t first)
+{
+    say(LINK_TABLE, LINK_TABLE_REQUEST, 0u);
+    bytes_put_u8(&fields, act);
+    bytes_put_u8(&fields, table);
+    bytes_put_u8(&fields, first);
+    for (uint32_t i = 3u; i < LINK_TABLE_REQUEST; i++) {
+        bytes_put_u8(&fields, 0u);
+    }
+}
+
+static void check_tables(void)
+{
+    const uint8_t load = index_of("load", 4u);
+    uint32_t empty;
+    uint32_t crc;
+
+    bench_open();
+    empty = revert();
+    for (uint8_t first = 0u; first < PARAMS_POINTS_MAX; first = (uint8_t)(first + LINK_TABLE_PIECE)) {
+        say_points(first, LINK_TABLE_PIECE);
+        tap_check(says_table(first, LINK_TABLE_PIECE, (uint8_t)(first + LINK_TABLE_PIECE)), "a piece of a table");
+    }
+    ask_points(LINK_TABLE_IN_FORCE, PARAMS_TABLE_LOAD, 0u);
+    tap_check(says_table(0u, 0u, 0u), "staged is not in force");
+    ask_points(LINK_TABLE_STAGED, PARAMS_TABLE_LOAD, 60u);
+    tap_check(says_table(60u, 4u, 64u), "but can be read");
+    crc = link_crc(&bench.link.staged);
+    tap_check(crc != empty && is_committed(stage(load, (float)LOAD_TABLE), 1u, 1u), "committed it is");
+    ask_points(LINK_TABLE_IN_FORCE, PARAMS_TABLE_LOAD, 48u);
+    tap_check(says_table(48u, 16u, 64u), "all of it");
+    say_points(2u, 1u);
+    tap_check(says_table(2u, 1u, 3u) && link_crc(&bench.link.staged) != crc, "what came behind is gone");
+    say_points(4u, 1u);
+    tap_check(is_refused(ERROR_OUT_OF_RANGE, 2u, 0u) && has_range(0.0f, 3.0f), "no gap is left");
+    say_points(3u, 17u);
+    tap_check(is_refused(ERROR_OUT_OF_RANGE, 3u, 0u) && has_range(0.0f, 16.0f), "no more than a piece holds");
+    ask_points(LINK_TABLE_ACTS, PARAMS_TABLE_LOAD, 0u);
+    tap_check(is_refused(ERROR_OUT_OF_RANGE, 0u, 0u), "nothing else is done");
+    ask_points(LINK_TABLE_STAGED, PARAMS_TABLES, 0u);
+    tap_check(is_refused(ERROR_OUT_OF_RANGE, 1u, 0u), "there are two tables");
+    say_points(0u, 1u);
+    (void)says_table(0u, 1u, 1u);
+    crc = link_crc(&bench.link.staged);
+    say(LINK_TABLE, LINK_TABLE_REQUEST, 0u);
+    bytes_put_u32(&fields, (uint32_t)LINK_TABLE_PUT | 1u << 16 | 2u << 24); /* from point 1 two */
+    bytes_put_f32(&fields, 2.0f);
+    bytes_put_f32(&fields, 3.0f);
+    bytes_put_f32(&fields, 1.5f);
+    for (uint32_t i = 0u; i < 29u; i++) {
+        bytes_put_f32(&fields, 0.0f);
+    }
+    tap_check(is_refused(ERROR_OUT_OF_RANGE, 6u, 0u) && has_range(2.0f, 1e6f), "time does not go back");
+    tap_check(link_crc(&bench.link.staged) == crc, "and nothing of it is staged");
+    (void)revert();
+    ask_points(LINK_TABLE_PUT, PARAMS_TABLE_LOAD, 0u);
+    tap_check(says_table(0u, 0u, 0u), "none clears it");
+    say_commit(link_crc(&bench.link.staged), 1u);
+    tap_check(is_refused(ERROR_NO_TABLE, load, 0u), "which a profile that is a table does not allow");
+}
+
 void test_link(void)
 {
     bench_open();
@@ -286,4 +375,5 @@ void test_link(void)
     check_status();
     check_settings();
     check_refused_settings();
+    check_tables();
 }

@@ -134,6 +134,62 @@ static void check_sine(void)
     tap_check(says("N0 1 N1 0.9 load sine fN 0.2906", PREDICTION_SQUEAL), "at wn it moves it far");
 }
 
+/* The other forms of the load, by what they have in common with those. */
+static void check_forms(void)
+{
+    const float half = predict(plants_params("N0 0 N1 1 load ramp t2 1.72072")).touch_ratio;
+    const float step = predict(plants_params("N0 0 N1 1 load step")).touch_ratio;
+    struct params params = plants_params("load table");
+
+    params.tables[PARAMS_TABLE_LOAD] = (struct params_points){3u, {{5.0f, 0.0f}, {5.86036f, 0.5f}, {6.72072f, 1.0f}}};
+    tap_check_close(predict(params).touch_ratio, half, 1e-4f, "a table is its lines");
+    tap_check_close(predict(plants_params("N0 0 N1 1 load pulses rise 1.72072 hold 9 fall 3")).touch_ratio, half, 1e-4f,
+                    "a pulse is its rise");
+    tap_check_close(predict(plants_params("N0 0 N1 1 load step lag 1")).touch_ratio, step * 0.48038446f, 1e-3f,
+                    "a lag takes of an onset what it takes of wn");
+    tap_check_close(predict(plants_params("N0 0.5 y0 0.5 dither 0.1 f_dither 0.14528816 alpha 0")).touch_ratio,
+                    0.0208655f, 2e-4f, "dither is a sine of the load");
+    tap_check(says("N0 1 N_off 0.9", PREDICTION_SQUEAL) && says("N0 2.5 N_high 1", PREDICTION_QUIET),
+              "offset and limits are in the load that it is about");
+    tap_check(says("speed inertia", PREDICTION_UNKNOWN) && says("speed inertia N0 0", PREDICTION_QUIET),
+              "an inertia comes to rest where it is braked");
+    tap_check(says_of("stop", "", PREDICTION_UNKNOWN), "so does the stop");
+}
+
+/* How large the plant's normal oscillation is in the end. */
+static float oscillation(const char *assignments)
+{
+    static struct plant plant;
+    float y;
+
+    plants_start(&plant, assignments);
+    plants_run_steps(&plant, 64u * 30u);
+    y = plant.sim.f32.normal.y - plant.sim.f32.normal.n;
+    return fmath_sqrt(y * y + plant.sim.f32.normal.w * plant.sim.f32.normal.w) / plant.sim.f32.normal.n;
+}
+
+static float share(const char *assignments)
+{
+    const struct params params = plants_params(assignments);
+
+    plants_plan(&plan, &params);
+    return predictor_finish(&params, &plan.scale).share;
+}
+
+/* Amplitude and phase: what is there from the beginning and what the onset adds meet. */
+static void check_onsets(void)
+{
+    static const char *const sets[] = {"N0 1 N1 3 load step t1 5.3 y0 1.4 normal exact",
+                                       "N0 1 N1 3 load step t1 5.3 lag 0.4 normal exact",
+                                       "N0 1 N1 3 load step t1 6.1 lag 0.4 normal exact",
+                                       "N0 1 N1 3 load ramp t1 5.3 t2 7 lag 1.3 y0 1.4 normal exact",
+                                       "N0 1 N1 3 load pulses t1 4.3 rise 0.9 hold 999 lag 0.5 normal exact"};
+
+    for (unsigned i = 0u; i < sizeof sets / sizeof sets[0]; i++) {
+        tap_check_close(oscillation(sets[i]), share(sets[i]), 2e-3f, "what lasts of an onset is what the plant shows");
+    }
+}
+
 void test_predictor(void)
 {
     check_paper();
@@ -142,6 +198,8 @@ void test_predictor(void)
     check_standstill();
     check_ramp();
     check_sine();
+    check_forms();
+    check_onsets();
     tap_check_text(predictor_verdict_name(PREDICTION_UNKNOWN), "unknown", "the words of the protocol");
     tap_check_text(predictor_verdict_name(PREDICTION_SQUEAL), "squeal", "the words of the protocol");
 }

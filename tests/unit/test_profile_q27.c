@@ -17,16 +17,16 @@ static void check_same(const char *assignments, uint32_t steps, const char *clai
 
     plants_plan(&plan, &params);
     for (uint32_t i = 0u; i < steps; i++) {
-        const float load = (float)profile_q27_value(&plan.load_q27, i) / 134217728.0f;
-        const float speed = (float)profile_q27_value(&plan.speed_q27, i) / 134217728.0f;
+        const float load = (float)profile_q27_value(&plan.load.profile_q27, i) / 134217728.0f;
+        const float speed = (float)profile_q27_value(&plan.speed.profile_q27, i) / 134217728.0f;
 
-        worst = fmath_max(worst, fmath_abs(load - profile_value(&plan.load, i)));
-        worst = fmath_max(worst, fmath_abs(speed - profile_value(&plan.speed, i)));
+        worst = fmath_max(worst, fmath_abs(load - profile_value(&plan.load.profile, i)));
+        worst = fmath_max(worst, fmath_abs(speed - profile_value(&plan.speed.profile, i)));
     }
     tap_check_close(worst, 0.0f, 3e-7f, claim);
 }
 
-static int32_t load_at(uint64_t step) { return profile_q27_value(&plan.load_q27, step); }
+static int32_t load_at(uint64_t step) { return profile_q27_value(&plan.load.profile_q27, step); }
 
 static void check_ends(void)
 {

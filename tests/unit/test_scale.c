@@ -69,6 +69,14 @@ static void check_units(void)
     params = plants_params("N0 1 N1 3 v1 9");
     tap_check(scale_load_peak_n(&params) == 1.0f && scale_speed_peak_m_per_s(&params) == 1.0f,
               "what a constant profile does not use does not count");
+    params = plants_params("N0 1 N1 3 load pulses N_off 0.5 dither 0.25 v0 1 speed sine v1 -2 v_off 0.5 v_high 2.5");
+    tap_check(scale_load_peak_n(&params) == 3.75f && scale_speed_peak_m_per_s(&params) == 2.5f,
+              "offset and dither count, and so do the limits");
+    params = plants_params("load table speed table v_off 1");
+    params.tables[PARAMS_TABLE_LOAD] = (struct params_points){3u, {{0.0f, 1.0f}, {1.0f, 7.0f}, {2.0f, 0.0f}}};
+    params.tables[PARAMS_TABLE_SPEED] = (struct params_points){3u, {{0.0f, 1.0f}, {1.0f, -5.0f}, {2.0f, 0.0f}}};
+    tap_check(scale_load_peak_n(&params) == 7.0f && scale_speed_peak_m_per_s(&params) == 4.0f,
+              "of a table the largest point");
     scale = scale_of(plants_params("N_max 50 v_max 20"));
     tap_check(scale.load_n == 50.0f && fmath_abs(scale.speed_m_per_s - 27.386128f) < 1e-4f,
               "given limits are taken, the unit of speed covers friction's too");

@@ -19,6 +19,9 @@ static void open_brake(struct executive *executive, float arith, const char *ass
     struct params params = plants_preset("brake", assignments);
 
     params.arithmetic = arith;
+    params.tables[PARAMS_TABLE_LOAD] =
+        (struct params_points){4u, {{0.0f, 500.0f}, {0.02f, 3000.0f}, {0.02f, 2000.0f}, {0.06f, 2500.0f}}};
+    params.tables[PARAMS_TABLE_SPEED] = (struct params_points){2u, {{0.01f, 1.5f}, {0.05f, -0.5f}}};
     executive_init(executive, ARITH_F32);
     (void)executive_reset(executive, &params);
     executive_tick(executive, false);
@@ -71,14 +74,18 @@ static bool go_on_alike(uint32_t steps)
 /* Many runs, each left at a random step with demands in all stages, and gone on with by another executive. */
 static void check_going_on(float arith)
 {
-    static const char *const sets[] = {"",
-                                       "normal exact",
-                                       "load sine N0 2000 N1 700 fN 500 spp 128",
-                                       "contact lift normal exact load step N0 3000 N1 1000 t1 0.01",
-                                       "stale 0.003 safe 0.006 ramp 0.01",
-                                       "method naive",
-                                       "cn 5 normal exact rough 0.01 runout 0.2",
-                                       "mu_floor 0.1 contact no_pull speed ramp v1 -0.1 tv2 0.05"};
+    static const char *const sets[] = {
+        "",
+        "normal exact",
+        "load sine N0 2000 N1 700 fN 500 spp 128",
+        "contact lift normal exact load step N0 3000 N1 1000 t1 0.01",
+        "stale 0.003 safe 0.006 ramp 0.01",
+        "method naive",
+        "cn 5 normal exact rough 0.01 runout 0.2",
+        "load table lag 0.004 dither 200 f_dither 1700 speed table v_lag 0.01",
+        "load pulses t1 0.003 rise 0.001 hold 0.004 every 0.0071 speed inertia J 0.05",
+        "speed sine v1 0.3 fv 90 v_off 0.1 v_dither 0.05 fv_dither 700 lag 0.5 N_high 2000",
+        "mu_floor 0.1 contact no_pull speed ramp v1 -0.1 tv2 0.05"};
     uint32_t state_of_dice = 7u;
     bool ok = true;
 
@@ -176,7 +183,13 @@ static enum error with_byte(size_t at, uint8_t byte)
 
 static void check_refusals(void)
 {
-    enum { SET = 4, PARAM_N0 = SET + 4 * 11, LATCHED_LOAD = SET + 4 * 42, SHIFT = LATCHED_LOAD + 8 };
+    enum {
+        SET = 4,
+        PARAM_N0 = SET + 4 * 11,
+        COUNT = SET + 4 * 65,
+        LATCHED_LOAD = COUNT + 2 * (4 + 8 * PARAMS_POINTS_MAX),
+        SHIFT = LATCHED_LOAD + 8
+    };
     uint32_t hash;
     bool ok = true;
 
@@ -199,6 +212,8 @@ static void check_refusals(void)
     tap_check(with_byte(PARAM_N0 + 3u, 0x7fu) == ERROR_OUT_OF_RANGE, "one that is no number");
     image[PARAM_N0 + 2u] = 0u;
     tap_check(with_byte(LATCHED_LOAD + 3u, 0x30u) == ERROR_OUT_OF_SCALE, "a set that does not fit its units");
+    tap_check(with_byte(COUNT, 65u) == ERROR_OUT_OF_RANGE && with_byte(COUNT + 2u, 1u) == ERROR_OUT_OF_RANGE,
+              "more points than a table holds");
     tap_check(with_byte(SHIFT, 9u) == ERROR_OUT_OF_RANGE, "units that there are not");
     tap_check(other.sim.hash == hash && other.sim.step == 100u && executive_params(&other)->load_end_n == 1000.0f &&
                   !executive_has_order(&other),
@@ -321,6 +336,20 @@ static void check_rest(void)
     tap_check(ok, "nothing held, measured or waiting that cannot be");
 }
 
+static void check_acting(void)
+{
+    bool ok = true;
+
+    make_forged((float)ARITH_F32, "speed inertia J 0.05 lag 0.01");
+    REFUSES(load.lag.value = 1.2f);
+    REFUSES(speed.inertia.value = -1.2f);
+    REFUSES(speed.inertia.rest = 2.0f);
+    REFUSES(speed.lag.rest = -2.0f);
+    REFUSES(load.lag.value_q56 = INT64_MAX);
+    REFUSES(speed.inertia.value_q56 = INT64_MIN);
+    tap_check(ok, "no lag or inertia beyond what the scale holds");
+}
+
 static void check_detectors(void)
 {
     bool ok = true;
@@ -412,11 +441,14 @@ void test_snapshot(void)
     check_refusals();
     check_plants();
     check_rest();
+    check_acting();
     check_detectors();
     check_flags();
     check_forged((float)ARITH_F32, "");
     check_forged((float)ARITH_Q27, "");
     check_forged((float)ARITH_Q27, "normal exact");
     check_forged((float)ARITH_Q27, "contact lift normal exact");
+    check_forged((float)ARITH_Q27, "load table lag 0.004 dither 200 f_dither 1700 speed inertia J 0.05");
+    check_forged((float)ARITH_F32, "load pulses t1 0.003 hold 0.004 every 0.0071 speed table v_lag 0.01");
     check_forged((float)ARITH_F32, "contact lift normal exact stale 0.001 safe 0.002 ramp 0.01");
 }

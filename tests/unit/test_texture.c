@@ -203,7 +203,8 @@ static uint32_t plain_hash(uint32_t steps)
     const struct sim_plan *plan = &plant.plan;
 
     for (uint64_t i = 0u; i < steps; i++) {
-        const struct step_f32_input input = {profile_value(&plan->load, i), profile_value(&plan->speed, i)};
+        const struct step_f32_input input = {profile_value(&plan->load.profile, i),
+                                             profile_value(&plan->speed.profile, i)};
 
         if (i == 0u) {
             step_f32_reset(&state, &plan->f32, &plan->params, &plan->scale, input);

@@ -49,6 +49,15 @@ static void check_ends(void)
     try_preset("brake", "load sine N0 3000 N1 0.001 fN 100", &usual);
     tap_check(trial.end == TRIAL_WAS_WHOLE && propensity() == PROPENSITY_SQUEAL,
               "also one so small that the motion repeats");
+    try_preset("brake", "load step t1 0 lag 0.02", &usual);
+    tap_check(trial.end == TRIAL_SQUEALED && trial_periods(&trial) > 400.0f, "a lag is waited for");
+    try_preset("brake", "load step t1 0 dither 1 f_dither 100", &usual);
+    tap_check(trial.end == TRIAL_WAS_WHOLE, "dither never comes to rest");
+    try_preset("stop", "J 3", &usual);
+    tap_check(trial.is_over && trial.sim.f32.disc == 0.0f && trial_periods(&trial) < 2000.0f,
+              "a stop is watched until the disc stands");
+    try_preset("stop", "J 3 N1 0", &usual);
+    tap_check(trial.is_over && trial_periods(&trial) < 1000.0f, "and one that nothing brakes is not waited for");
     try_preset("brake", "", &whole);
     tap_check(trial.end == TRIAL_WAS_WHOLE && trial_periods(&trial) > 440.0f + 145.0f,
               "and what was asked for whole, counted from the end of the ramp");

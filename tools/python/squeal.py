@@ -93,7 +93,7 @@ class NoAnswer(Error):
 ERRORS = ("ok", "unknown-command", "usage", "unknown-name", "bad-number", "out-of-range", "needs-restart",
           "out-of-scale", "step-too-large", "not-served", "no-scale", "in-fault", "is-running", "line-too-long",
           "line-damaged", "line-overload", "selftest", "stopped", "busy", "bad-length", "unknown-type", "bad-sequence",
-          "bad-step", "wrong-version", "wrong-crc", "safe-state", "wrong-layout", "bad-piece")
+          "bad-step", "wrong-version", "wrong-crc", "safe-state", "wrong-layout", "bad-piece", "no-table", "table-full")
 # These tell what would have been right; these requests blame a parameter, others a field, and so do these reasons.
 EXPECTING = ("bad-length", "bad-sequence", "bad-step", "wrong-version", "wrong-crc", "wrong-layout", "bad-piece")
 BLAMING = ("STAGE", "COMMIT", "PRESET", "RESET", "RESTORE")
@@ -404,6 +404,7 @@ class Request(NamedTuple):
 
 _SPAN = "transient window whole"
 _PIECE = 232                    # bytes of a run that go over at a time
+_POINTS = 16                    # points of a table that do
 
 REQUESTS: Dict[str, Request] = {row.name: row for row in (
     Request(0x01, "HELLO", "BB", "BBHHHBBBBH16s32s24s16s", "major minor"),
@@ -428,6 +429,7 @@ REQUESTS: Dict[str, Request] = {row.name: row for row in (
     Request(0x14, "VERDICT", "", "6B16f", ""),
     Request(0x15, "SELFTEST", "", "BBI", ""),
     Request(0x16, "OCCURRENCE", "IIB4fHHB", "I", "trials seed uniform mu_s alpha c N " + _SPAN),
+    Request(0x17, "TABLE", f"4B{2 * _POINTS}f", f"4BI{2 * _POINTS}f", "act table first count" + " t value" * _POINTS),
 )}
 _REPLY, _ERROR = 0x80, 0xff
 _SAMPLE, _POINT, _BORDER, _STUDY_END = range(0x40, 0x44)        # come by themselves
@@ -437,6 +439,7 @@ _REFUSAL = struct.Struct("<BBBIff")
 _HEAD = struct.Struct("<BHI")
 _PARAMETERS, _SIGNALS, _PRESETS, _SELFTESTS = range(4)          # tables of DICTIONARY
 _NO_PARAMETER = 255
+_TABLES = ("load", "speed")                                     # of breakpoints
 _IN_FORCE, _STAGED, _NOW = range(3)                             # what READ reads
 _KEEP, _PROFILE, _FIRST, _SECOND = range(4)                     # kinds of load and speed
 _START = 0x80                                                   # beside a STEP's kind of load
@@ -971,8 +974,17 @@ class Plant:
         row = _find(self.parameters, name, "parameter")
         return row.value(struct.unpack("<f", self._ask("READ", _IN_FORCE, row.row)[2])[0])
 
-    def set(self, values: Mapping[str, Value] = {}, /, *, may_reset: bool = False, **named: Value) -> Committed:
-        """Changes parameters, all of them or none; each in its unit, a choice by name or number.
+    def _stage_table(self, table: int, points: Sequence[Tuple[float, float]]) -> int:
+        crc = 0
+        for first in range(0, max(len(points), 1), _POINTS):
+            piece = [number for point in points[first:first + _POINTS] for number in point]
+            crc = self._ask("TABLE", 2, table, first, len(piece) // 2, *piece, *[0.0] * (2 * _POINTS - len(piece)))[4]
+        return crc
+
+    def set(self, values: Mapping[str, Value] = {}, /, *, may_reset: bool = False,
+            tables: Optional[Mapping[str, Sequence[Tuple[float, float]]]] = None, **named: Value) -> Committed:
+        """Changes parameters, all of them or none; each in its unit, a choice by name or number. tables: new breakpoints
+        (t, value) of load="table" and speed="table", by these names.
 
         At step 0 this is a reset, later live parameters change between two steps. may_reset: others may take a plant
         that has moved, and stands, back to step 0. Raises Refused with the parameter and the range that is free to it.
@@ -984,6 +996,8 @@ class Plant:
         try:
             for index, number in numbers:
                 crc = self._ask("STAGE", index, number)[2]
+            for table, points in (tables or {}).items():
+                crc = self._stage_table(_TABLES.index(table), points)
             crc, was_reset, generation = self._ask("COMMIT", crc, may_reset)
         except Refused:
             self._ask("REVERT")
@@ -991,6 +1005,15 @@ class Plant:
         if was_reset:
             self._at = 0
         return Committed(bool(was_reset), generation, crc)
+
+    def table(self, name: str) -> List[Tuple[float, float]]:
+        """The breakpoints (t, value) of load="table" or of speed="table" in force: name is load or speed."""
+        points: List[Tuple[float, float]] = []
+        while True:
+            _, _, count, length, _, *numbers = self._ask("TABLE", 0, _TABLES.index(name), len(points), 0, *[0.0] * 2 * _POINTS)
+            points += list(zip(numbers[0::2], numbers[1::2]))[:count]
+            if not count or len(points) >= length:
+                return points
 
     def preset(self, name: str) -> Committed:
         """Loads a named set: every parameter. Stops and resets the plant."""

@@ -5,6 +5,7 @@
 #include "base/decimal.h"
 #include "protocol/signals.h"
 #include "squeal/record/recording.h"
+#include "squeal/record/table_file.h"
 #include "squeal/support/wav.h"
 
 #include <inttypes.h>
@@ -61,14 +62,34 @@ static int read_signals(struct take *take)
     return EXIT_OK;
 }
 
+/* Tables from files, into the recording's own. */
+static int read_tables(struct take *take, struct device_tables *tables)
+{
+    static const char *const options[PARAMS_TABLES] = {"--load-table", "--speed-table"};
+
+    for (int i = 0; i < PARAMS_TABLES; i++) {
+        const char *path = arguments_text(take->arguments, options[i]);
+        char problem[CSV_PROBLEM_MAX];
+        if (path == NULL) {
+            continue;
+        }
+        tables->table[i] = &take->recording.tables[i];
+        if (!table_file_read(path, (enum params_table_index)i, &take->recording.tables[i], problem)) {
+            return fail_here(problem);
+        }
+    }
+    return EXIT_OK;
+}
+
 /* The set: a preset, or what is in force, with the assignments on top; the run begins at step 0. */
 static int prepare_set(struct take *take)
 {
     const struct arguments *arguments = take->arguments;
     const char *preset = arguments_text(arguments, "--preset");
     struct device_value *values = calloc(arguments->operand_count + 1, sizeof *values);
+    struct device_tables tables = {{NULL}};
     uint64_t step;
-    int code = values != NULL ? EXIT_OK : fail_here("out of memory");
+    int code = values != NULL ? read_tables(take, &tables) : fail_here("out of memory");
     const int index = preset != NULL ? device_find(take->device, DEVICE_PRESETS, preset) : 0;
 
     code = code != EXIT_OK ? code : index < 0 ? linked_fail_name(take->device) : EXIT_OK;
@@ -77,8 +98,9 @@ static int prepare_set(struct take *take)
     if (code == EXIT_OK) {
         enum device_result result =
             preset != NULL ? device_preset(take->device, index, NULL) : device_reset(take->device, &step);
-        if (result == DEVICE_OK && arguments->operand_count > 0) {
-            result = device_set(take->device, values, arguments->operand_count, true, NULL);
+        if (result == DEVICE_OK && (arguments->operand_count > 0 || tables.table[PARAMS_TABLE_LOAD] != NULL ||
+                                    tables.table[PARAMS_TABLE_SPEED] != NULL)) {
+            result = device_set(take->device, values, arguments->operand_count, &tables, true, NULL);
         }
         result = result == DEVICE_OK ? recording_read_set(&take->recording, take->device) : result;
         result = result == DEVICE_OK ? device_status(take->device, &take->recording.status) : result;

@@ -1,6 +1,8 @@
 /* The set: list, get, set, preset. */
 #include "squeal/commands/linked.h"
 
+#include "squeal/record/table_file.h"
+
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -128,7 +130,8 @@ static int set_all(const struct arguments *arguments, struct device *device, str
     if (code != EXIT_OK) {
         return code;
     }
-    const enum device_result result = device_set(device, values, count, !arguments_flag(arguments, "--live"), &commit);
+    const enum device_result result =
+        device_set(device, values, count, NULL, !arguments_flag(arguments, "--live"), &commit);
     if (result != DEVICE_OK) {
         return linked_fail(device, result);
     }
@@ -147,6 +150,53 @@ int command_set(const struct arguments *arguments)
         code = code == EXIT_OK ? set_all(arguments, device, values) : code;
     }
     free(values);
+    device_close(device);
+    return code;
+}
+
+/* Prints a table as a file would hold it, or puts a file's into force. */
+static int table_of(const struct arguments *arguments, struct device *device, enum params_table_index index)
+{
+    struct params_points table;
+    struct device_tables tables = {{NULL}};
+    struct device_commit commit;
+    char problem[CSV_PROBLEM_MAX];
+
+    if (arguments->operand_count == 1) {
+        const enum device_result result = device_get_table(device, index, &table);
+        if (result == DEVICE_OK) {
+            table_file_write(stdout, index, &table);
+        }
+        return result == DEVICE_OK ? EXIT_OK : linked_fail(device, result);
+    }
+    if (!table_file_read(arguments->operands[1], index, &table, problem)) {
+        (void)fflush(stdout);
+        fprintf(stderr, "squeal: %s\n", problem);
+        return EXIT_FAILED;
+    }
+    tables.table[index] = &table;
+    const enum device_result result = device_set(device, NULL, 0, &tables, true, &commit);
+    if (result != DEVICE_OK) {
+        return linked_fail(device, result);
+    }
+    tell_commit(&commit);
+    return EXIT_OK;
+}
+
+int command_table(const struct arguments *arguments)
+{
+    enum params_table_index index = PARAMS_TABLE_LOAD;
+    struct device *device = NULL;
+
+    if (!arguments_has_operands(arguments, 1, 2)) {
+        return EXIT_USAGE;
+    }
+    if (!table_file_find(arguments->operands[0], &index)) {
+        fprintf(stderr, "squeal: table %.40s: load or speed is wanted\n", arguments->operands[0]);
+        return EXIT_USAGE;
+    }
+    int code = linked_open(arguments, &device);
+    code = code == EXIT_OK ? table_of(arguments, device, index) : code;
     device_close(device);
     return code;
 }

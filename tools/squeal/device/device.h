@@ -119,9 +119,18 @@ struct device_commit {
 enum device_result device_get(struct device *device, int param, float *value);
 enum device_result device_look(struct device *device, int signal, double *value);
 
-/* Puts all the values into force or none. Without may_reset a change that needs a restart is refused. commit may be NULL. */
-enum device_result device_set(struct device *device, const struct device_value *values, size_t count, bool may_reset,
-                              struct device_commit *commit);
+/* A table of breakpoints in force; empty on a device that has none. */
+enum device_result device_get_table(struct device *device, enum params_table_index index, struct params_points *table);
+
+/* Tables that go with a set; NULL: that one stays as it is. */
+struct device_tables {
+    const struct params_points *table[PARAMS_TABLES];
+};
+
+/* Puts all the values and tables into force or none. Without may_reset a change that needs a restart is refused. tables and
+ * commit may be NULL. */
+enum device_result device_set(struct device *device, const struct device_value *values, size_t count,
+                              const struct device_tables *tables, bool may_reset, struct device_commit *commit);
 
 /* A named set into force: stops and resets. */
 enum device_result device_preset(struct device *device, int preset, struct device_commit *commit);

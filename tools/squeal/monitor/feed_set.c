@@ -139,7 +139,7 @@ static enum device_result set_pace(struct feed *feed, double tick_hz, double sub
     if (values[0].index < 0 || values[1].index < 0) {
         return DEVICE_OK;
     }
-    result = device_set(feed->device, values, 2u, true, NULL);
+    result = device_set(feed->device, values, 2u, NULL, true, NULL);
     feed->pace_s = 0.0; /* measured anew */
     return result == DEVICE_OK ? read_status_and_set(feed) : result;
 }
@@ -198,7 +198,7 @@ enum device_result feed_turn(struct feed *feed, size_t input, int clicks)
     if (value.index < 0 || !isfinite(shown->set)) {
         return DEVICE_OK;
     }
-    result = device_set(feed->device, &value, 1u, false, NULL);
+    result = device_set(feed->device, &value, 1u, NULL, false, NULL);
     if (result == DEVICE_OK) {
         feed_say(feed, false, "%s = %g %s", shown->symbol, (double)value.value, shown->unit);
         return read_status_and_set(feed);

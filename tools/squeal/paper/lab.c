@@ -132,7 +132,7 @@ void lab_set(struct lab *lab, const char *assignments)
         values[count].value = value_parse(lab, values[count].index, text);
     }
     if (count > 0) {
-        lab_need(lab, device_set(lab->device, values, count, true, NULL));
+        lab_need(lab, device_set(lab->device, values, count, NULL, true, NULL));
     }
     time_read(lab);
 }

@@ -119,15 +119,20 @@ enum device_result recording_read_set(struct recording *recording, struct device
         result = device_get(device, (int)i, &recording->set[i].value);
     }
     recording->set_count = count;
+    for (int i = 0; i < PARAMS_TABLES && result == DEVICE_OK; i++) {
+        result = device_get_table(device, (enum params_table_index)i, &recording->tables[i]);
+    }
     return result;
 }
 
 enum device_result recording_load(const struct recording *recording, struct device *device)
 {
+    const struct device_tables tables = {
+        {&recording->tables[PARAMS_TABLE_LOAD], &recording->tables[PARAMS_TABLE_SPEED]}};
     uint64_t step;
     enum device_result result = device_reset(device, &step);
 
-    return result == DEVICE_OK ? device_set(device, recording->set, recording->set_count, true, NULL) : result;
+    return result == DEVICE_OK ? device_set(device, recording->set, recording->set_count, &tables, true, NULL) : result;
 }
 
 /* Where the run next takes an input, or ends. */

@@ -13,6 +13,7 @@
 struct recording {
     struct device_value *set; /* every parameter of the device; NULL: not read */
     size_t set_count;
+    struct params_points tables[PARAMS_TABLES];
     struct input_demand *inputs; /* by their step, which is that of the state they are held from: 0 the initial one */
     size_t input_count;
     uint64_t steps;

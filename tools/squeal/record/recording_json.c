@@ -29,6 +29,19 @@ static void set_write(FILE *file, const struct recording *recording, struct devi
     }
 }
 
+static void table_write(FILE *file, const char *name, const struct params_points *table)
+{
+    char time[DECIMAL_SIZE_MAX], value[DECIMAL_SIZE_MAX];
+
+    (void)fprintf(file, "\"%s\": [", name);
+    for (uint32_t i = 0; i < table->count; i++) {
+        (void)decimal_format_shortest(table->points[i].time_s, time);
+        (void)decimal_format_shortest(table->points[i].value, value);
+        (void)fprintf(file, "%s[%s, %s]", i > 0 ? ", " : "", time, value);
+    }
+    (void)fputc(']', file);
+}
+
 static void held_write(FILE *file, const char *name, float value)
 {
     char text[DECIMAL_SIZE_MAX];
@@ -115,6 +128,10 @@ bool recording_write(const struct recording *recording, struct device *device, c
     device_write(file, device);
     (void)fprintf(file, ",\n  \"set_crc\": \"%08x\",\n  \"set\": {", recording->status.set_crc);
     set_write(file, recording, device);
+    (void)fputs("},\n  \"tables\": {", file);
+    table_write(file, "load", &recording->tables[PARAMS_TABLE_LOAD]);
+    (void)fputs(", ", file);
+    table_write(file, "speed", &recording->tables[PARAMS_TABLE_SPEED]);
     (void)fputs("},\n  \"inputs\": [", file);
     inputs_write(file, recording);
     (void)fprintf(file,
@@ -171,6 +188,25 @@ static int held_read(const char *input, const char *const names[4], float *value
     return 0;
 }
 
+/* A record without tables is that of a set without them. */
+static bool table_read(struct params_points *table, const char *points)
+{
+    const size_t count = json_count(points);
+    char time[WORD_SIZE], value[WORD_SIZE];
+
+    for (size_t i = 0; i < count && count <= PARAMS_POINTS_MAX; i++) {
+        const char *point = json_element(points, i);
+        if (!json_text(json_element(point, 0), time, sizeof time) ||
+            !json_text(json_element(point, 1), value, sizeof value) ||
+            !decimal_parse_f32(time, strlen(time), &table->points[i].time_s) ||
+            !decimal_parse_f32(value, strlen(value), &table->points[i].value)) {
+            return false;
+        }
+        table->count++;
+    }
+    return table->count == count;
+}
+
 static bool whole_read(const char *value, uint64_t *out)
 {
     char text[WORD_SIZE];
@@ -220,8 +256,10 @@ static bool read_all(struct recording *recording, struct device *device, const c
     }
     if (!whole_read(json_member(json, "steps"), &recording->steps) || recording->steps == 0 ||
         !hash_read(json_member(json, "hash"), &recording->hash) ||
-        !inputs_read(recording, json_member(json, "inputs"))) {
-        return fail(problem, path, "steps, hash or inputs are missing or damaged");
+        !inputs_read(recording, json_member(json, "inputs")) ||
+        !table_read(&recording->tables[PARAMS_TABLE_LOAD], json_member(json_member(json, "tables"), "load")) ||
+        !table_read(&recording->tables[PARAMS_TABLE_SPEED], json_member(json_member(json, "tables"), "speed"))) {
+        return fail(problem, path, "steps, hash, inputs or tables are missing or damaged");
     }
     return set_read(recording, device, json_member(json, "set"), path, problem);
 }
