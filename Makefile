@@ -297,7 +297,7 @@ test: $(IMAGE) $(CONTROLLER) $(UNIT_IMAGE) $(PROBE) $(UNIT_HOST) $(TOOL) $(ORACL
 	    PICTURES=$(CURDIR)/$(PICTURES) CONVERGE=$(CURDIR)/$(CONVERGE) BENCH_LINK=$(BENCH_LINK) \
 	    FUZZER=$(FUZZER) FUZZ_OPTIONS="$(FUZZ_OPTIONS)" REPLAY=$(REPLAY) tools/tap_summary $(wildcard tests/*.t tests/system/*.t)
 
-bits: $(IMAGE) other-images ## compare the bits of all boards with the host's: f32 and q27, over a million steps each, some 3 minutes
+bits: $(IMAGE) other-images ## compare the bits of all boards with the host's: f32 and q27, over a million steps each (5 minutes of processor time)
 	$(Q)COMMANDS="$(call commands_of,$(BOARDS))" BOARD=$(BOARD) tests/system/bits.py
 
 tool: $(TOOL) ## build the host tool, build/tools/squeal; see its --help
