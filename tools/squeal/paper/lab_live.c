@@ -98,6 +98,14 @@ double lab_xpp_m(struct lab *lab, unsigned periods)
     return lab_point_xpp_m(&point);
 }
 
+double lab_events(struct lab *lab)
+{
+    struct device_status status;
+
+    lab_need(lab, device_status(lab->device, &status));
+    return (double)status.events;
+}
+
 /* --- Borders -------------------------------------------------------------------------------------------------------- */
 
 struct answer {

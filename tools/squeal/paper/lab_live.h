@@ -23,6 +23,9 @@ bool lab_point_has_events(const struct device_point *point);
 /* Range of x after so many periods from the start, to a few parts in a hundred thousand. */
 double lab_xpp_m(struct lab *lab, unsigned periods);
 
+/* Sticking, crossing and the like that the plant has located since its reset. */
+double lab_events(struct lab *lab);
+
 /* The nearest borders of squeal of one parameter, as margin on the console has them. */
 struct device_border lab_border(struct lab *lab, const char *symbol);
 

@@ -1,6 +1,8 @@
 /* Strobes come as samples, one each so many steps as a normal period has. */
 #include "squeal/paper/orbit.h"
 
+#include "squeal/paper/fit.h"
+
 #include <math.h>
 
 enum { CHUNK_PERIODS = 64, FITTED_LEAST = 12, POINTS = 3, HALVINGS = 5, PATIENCE = 1600, FOLLOWED_PERIODS = 5000 };
@@ -81,7 +83,7 @@ static double alternating(const struct lab_track *track, size_t i)
  * some of it, larger the nearer to the doubling; that is taken off. */
 double orbit_log_multiplier(struct lab *lab, unsigned most)
 {
-    double count = 0.0, places = 0.0, squares = 0.0, logs = 0.0, products = 0.0;
+    struct fit fit = {0};
 
     lab_reset(lab);
     const struct lab_track track = lab_record(lab, "x,xd", most, lab_steps_per_period(lab));
@@ -98,16 +100,10 @@ double orbit_log_multiplier(struct lab *lab, unsigned most)
             break;
         }
         if (share > ROUNDING) {
-            const double place = (double)i, log_share = log(share);
-            count += 1.0;
-            places += place;
-            squares += place * place;
-            logs += log_share;
-            products += place * log_share;
+            fit_add(&fit, (double)i, log(share));
         }
     }
-    return count < FITTED_LEAST ? (double)NAN
-                                : (count * products - places * logs) / (count * squares - places * places);
+    return fit.count < FITTED_LEAST ? (double)NAN : fit_slope(&fit);
 }
 
 /* --- Doubling ------------------------------------------------------------------------------------------------------- */

@@ -68,6 +68,9 @@ void table_save(struct lab *lab, const struct table *table, const char *name, co
     (void)snprintf(header, sizeof header, "# %s\n%s", comment, table->header);
     FILE *file = lab_csv_open(lab, name, header);
     for (size_t row = 0; row < table->rows; row++) {
+        if (isnan(table_at(table, row, 0))) {
+            continue;
+        }
         for (size_t column = 0; column < table->columns; column++) {
             (void)fprintf(file, "%s%.9g", column > 0 ? "," : "", table_at(table, row, column));
         }
