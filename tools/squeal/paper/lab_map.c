@@ -44,6 +44,7 @@ static void decorate(FILE *script, const void *context)
 {
     const struct lab_map *map = context;
 
+    (void)fputs("set ylabel offset 1,0\n", script);
     if (map->is_metric) {
         (void)fputs("set cblabel 'amplitude where it squeals  [m]'\n", script);
     }

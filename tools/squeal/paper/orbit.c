@@ -106,6 +106,30 @@ double orbit_log_multiplier(struct lab *lab, unsigned most)
     return fit.count < FITTED_LEAST ? (double)NAN : fit_slope(&fit);
 }
 
+/* --- Two plants ----------------------------------------------------------------------------------------------------- */
+
+double orbit_parting(struct lab *lab, double offset_m, unsigned from, unsigned to, double *distance_m)
+{
+    const double x0_m = lab_get(lab, "x0"), omega = sqrt((lab_get(lab, "kt") + lab_get(lab, "k")) / lab_get(lab, "m"));
+    struct fit fit = {0};
+
+    lab_reset(lab);
+    const struct lab_track one = lab_record(lab, "x,xd", to, lab_steps_per_period(lab));
+    lab_setf(lab, "x0 %.9g", x0_m + offset_m);
+    const struct lab_track two = lab_record(lab, "x,xd", to, lab_steps_per_period(lab));
+    lab_setf(lab, "x0 %.9g", x0_m);
+    for (size_t i = 0; i < to && i < one.count && i < two.count; i++) {
+        const double distance = hypot(two.value[0][i] - one.value[0][i], (two.value[1][i] - one.value[1][i]) / omega);
+        if (i >= from && distance > 0.0) {
+            fit_add(&fit, (double)i, log(distance));
+        }
+        if (distance_m != NULL) {
+            distance_m[i] = distance;
+        }
+    }
+    return fit_slope(&fit);
+}
+
 /* --- Doubling ------------------------------------------------------------------------------------------------------- */
 
 static bool is_doubled_at(struct lab *lab, const char *symbol, double value)

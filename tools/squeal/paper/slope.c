@@ -1,7 +1,6 @@
 /* Between the panels of Fig. 6: the size of the motion over the slope of friction, where it loses its period, and whether what
  * comes then is chaos. */
-#include "squeal/paper/fit.h"
-#include "squeal/paper/lab_live.h"
+#include "squeal/paper/orbit.h"
 #include "squeal/paper/table.h"
 
 #include "sim/detector.h"
@@ -40,7 +39,8 @@ static void sweep(struct lab *lab, struct table *table, const char *axis)
 
 static const char commands[] =
     "set title 'Size of the motion over the slope of friction, N = 1 N' offset 0,1.3\nset logscale x\n"
-    "set xlabel '|" FIGURE_ALPHA "|  [s/m]'\nset ylabel 'x, peak to peak  [m]'\nset format '%g'\nset xrange [4e-4:0.12]\nset yrange [0:*]\n"
+    "set xlabel '|" FIGURE_ALPHA
+    "|  [s/m]'\nset ylabel 'x, peak to peak  [m]'\nset format '%g'\nset xrange [4e-4:0.12]\nset yrange [0:*]\n"
     "set arrow from change, graph 0 to change, graph 1 nohead dt 2 lw 1.5 lc rgb '" FIGURE_COLOUR_DISC "'\n"
     "set label sprintf('N |" FIGURE_ALPHA
     "| = c at %.5f s/m', change) at change, graph 0.06 right offset -0.6,0 tc rgb '" FIGURE_COLOUR_DISC "'\n"
@@ -75,29 +75,18 @@ static void judge_size(struct lab *lab, const struct table *table, size_t below)
 
 /* --- Chaos? ----------------------------------------------------------------------------------------------------------- */
 
-static struct lab_track strobes_from(struct lab *lab, double slope, double x0_m)
-{
-    lab_setf(lab, "alpha %.9g x0 %.9g", -slope, x0_m);
-    return lab_record(lab, "x,xd", PART_PERIODS, lab_steps_per_period(lab));
-}
-
-/* Two plants that start a millimetre apart, strobe by strobe. Returns the growth of the distance in e-folds a period. */
+/* Returns the growth of their distance in e-folds a period. */
 static double part(struct lab *lab, double slope, struct table *table)
 {
-    const struct lab_track one = strobes_from(lab, slope, 0.0), two = strobes_from(lab, slope, OFFSET_M);
-    const size_t count = one.count < two.count ? one.count : two.count;
-    struct fit fit = {0};
+    double *distance_m = lab_memory(lab, PART_PERIODS, sizeof *distance_m);
 
-    for (size_t i = 0; i < count; i++) {
-        const double distance_m = hypot(one.value[0][i] - two.value[0][i],
-                                        (one.value[1][i] - two.value[1][i]) * lab_period_s(lab) / (2.0 * acos(-1.0)));
-        if (i >= PART_FROM && distance_m > 0.0) {
-            fit_add(&fit, (double)i, log(distance_m));
-        }
-        table_add(lab, table, (const double[]){(double)i, slope, distance_m});
+    lab_setf(lab, "alpha %.9g", -slope);
+    const double exponent = orbit_parting(lab, OFFSET_M, PART_FROM, PART_PERIODS, distance_m);
+    for (int i = 0; i < PART_PERIODS; i++) {
+        table_add(lab, table, (const double[]){(double)i, slope, distance_m[i]});
     }
     table_add(lab, table, (const double[]){(double)NAN, slope, (double)NAN});
-    return fit_slope(&fit);
+    return exponent;
 }
 
 static const char part_commands[] =
