@@ -67,12 +67,13 @@ static void draw(struct lab *lab, double start_m_per_s, double cycle)
 
     start(lab, start_m_per_s);
     (void)lab_settle(lab, SEEN_FROM);
-    const struct lab_track cycle = lab_record(lab, "x,xd", 2, 1);
+    const struct lab_track orbit = lab_record(lab, "x,xd", 2, 1);
     fates(lab, start_m_per_s, tracks);
     script = lab_figure_open(lab);
     lab_figure_block(script, "slower", &tracks[0], 0, 1);
     lab_figure_block(script, "faster", &tracks[1], 0, 1);
-    lab_figure_block(script, "cycle", &cycle, 0, 1);
+    lab_figure_block(script, "cycle", &orbit, 0, 1);
+    (void)fprintf(script, "shown = %.9g\n", 2.0 * cycle);
     lab_figure_close(
         lab, script, "outer",
         "A pad that starts a little below the border comes to stick and stays; a little above it runs away. The "
