@@ -9,7 +9,7 @@
 
 #include <math.h>
 
-enum { CASES = 3, LIFE_PERIODS = 3000, HALVINGS = 18, SEEN_FROM = 20, SEEN_PERIODS = 60, TEXT_SIZE = 64 };
+enum { CASES = 3, LIFE_PERIODS = 3000, HALVINGS = 22, SEEN_FROM = 4, SEEN_PERIODS = 32, TEXT_SIZE = 64 };
 
 #define FORCE_N 1.0
 #define LIMIT 3e-3 /* relative */
@@ -37,7 +37,7 @@ static double cycle_find(struct lab *lab, double slope, double guess, double *st
     *start_m_per_s = lab_bisect(lab, 0.4 * guess, 1.6 * guess, HALVINGS, runs_away);
     start(lab, *start_m_per_s);
     (void)lab_settle(lab, SEEN_FROM);
-    const struct lab_motion motion = lab_measure(lab, SEEN_PERIODS / 8 * 8, NULL);
+    const struct lab_motion motion = lab_measure(lab, SEEN_PERIODS, NULL);
     return 0.5 * (motion.vmax_m_per_s - motion.vmin_m_per_s);
 }
 
@@ -67,7 +67,7 @@ static void draw(struct lab *lab, double start_m_per_s, double cycle)
 
     start(lab, start_m_per_s);
     (void)lab_settle(lab, SEEN_FROM);
-    const struct lab_track orbit = lab_record(lab, "x,xd", 2, 1);
+    const struct lab_track orbit = lab_record(lab, "x,xd", 1, 1);
     fates(lab, start_m_per_s, tracks);
     script = lab_figure_open(lab);
     lab_figure_block(script, "slower", &tracks[0], 0, 1);

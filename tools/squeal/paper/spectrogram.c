@@ -59,9 +59,9 @@ static void window_write(struct lab *lab, FILE *script, const double *samples, d
 static const char commands[] =
     "set title headline offset 0,0.3\nset xlabel 'time  [ms]'\nset ylabel 'frequency  [kHz]'\nset tmargin 3\nset "
     "rmargin 14\n"
-    "set xrange [0:length]\nset yrange [0:9]\nset cbrange [60:160]\nset cblabel 'velocity  [dB re 1 nm/s]'\n"
+    "set xrange [0:length]\nset yrange [0:9]\nset cbrange [60:160]\nset cblabel 'velocity  [dB re 1 nm/s]' offset 1.5,0\n"
     "set palette defined (0 '#f7f9fb', 0.3 '#b9cfe2', 0.6 '#f08c3a', 1 '#6b1d06')\nunset grid\nunset key\n"
-    "plot $frames using 1:2:3:(wide):(high) with boxxyerror fs solid noborder fc palette\n";
+    "plot $frames using 1:2:(wide):(high):3 with boxxyerror fs solid noborder fc palette\n";
 
 static void run(struct lab *lab, const struct sound *sound)
 {
