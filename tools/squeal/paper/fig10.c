@@ -1,18 +1,16 @@
 /* Figs. 10a and 10b: strobes of the pad over the friction coefficient and over the disc's speed, swept up and down without a
  * reset; where the period doubles, and which brake force the paper must have used. */
-#include "squeal/paper/orbit.h"
-#include "squeal/paper/table.h"
+#include "squeal/paper/sweep.h"
 
 #include "squeal/plot/figure.h"
 
 #include <math.h>
 #include <string.h>
 
-enum { TEXT_SIZE = 512, MOST_PERIODS = 3000, MOST_PERIODS_SMALL = 384, PLACES = 99, PLACES_SMALL = 11 };
+enum { TEXT_SIZE = 512, CASES = 14, MOST_PERIODS = 3000 };
 
 #define LIMIT_DOUBLING 2e-3 /* relative: the multiplier is extrapolated to 1 */
 #define LIMIT_ALIKE 2e-3
-#define HYSTERESIS 1e-2
 
 struct diagram {
     const char *name, *symbol, *unit, *title, *axis,
@@ -23,40 +21,47 @@ struct diagram {
     double reference_n;    /* the force that doubles it there, by the reference solver */
     double one[2], two[2]; /* brackets of both ends of the bubble at 5 N: period 1, period 2 */
     double reference[2];   /* the ends, by the reference solver */
-    bool is_stable_below;  /* as the paper has it */
+    const char *key;       /* in the names of the golden table, and the places that it has; ends with NaN */
+    double cases[CASES];
+    bool is_stable_below; /* as the paper has it */
 };
 
 /* The reference solver's Lyapunov exponent, extrapolated to 0. */
-static const struct diagram diagrams[] = {{.name = "fig10a",
-                                           .symbol = "mu_s",
-                                           .unit = "1",
-                                           .title = "Fig. 10a, v0 = 1 m/s, α = -0.02 s/m, β + γ = 1",
-                                           .axis = "friction coefficient µs",
-                                           .set = "alpha -0.02 kt 0.5 k 0.5 v_max 10 mu_s 1",
-                                           .from = 0.03,
-                                           .to = 1.0,
-                                           .paper = 0.32,
-                                           .search_n = {4.0, 5.0},
-                                           .reference_n = 4.8783,
-                                           .one = {0.2, 0.75},
-                                           .two = {0.4, 0.5},
-                                           .reference = {0.30996, 0.61739},
-                                           .is_stable_below = true},
-                                          {.name = "fig10b",
-                                           .symbol = "v0",
-                                           .unit = "m/s",
-                                           .title = "Fig. 10b, µs = 0.3, α = -0.02 s/m, β + γ = 1",
-                                           .axis = "disc speed v0  [m/s]",
-                                           .set = "alpha -0.02 kt 0.5 k 0.5 v_max 10 v0 1",
-                                           .from = 0.05,
-                                           .to = 2.5,
-                                           .paper = 1.38,
-                                           .search_n = {6.0, 7.0},
-                                           .reference_n = 6.5841,
-                                           .one = {0.3, 1.2},
-                                           .two = {0.7, 0.8},
-                                           .reference = {0.48592, 0.96789},
-                                           .is_stable_below = false}};
+static const struct diagram diagrams[] = {
+    {.name = "fig10a",
+     .symbol = "mu_s",
+     .unit = "1",
+     .title = "Fig. 10a, v0 = 1 m/s, α = -0.02 s/m, β + γ = 1",
+     .axis = "friction coefficient µs",
+     .set = "alpha -0.02 kt 0.5 k 0.5 v_max 10 mu_s 1",
+     .from = 0.03,
+     .to = 1.0,
+     .paper = 0.32,
+     .search_n = {4.0, 5.0},
+     .reference_n = 4.8783,
+     .one = {0.2, 0.75},
+     .two = {0.4, 0.5},
+     .reference = {0.30996, 0.61739},
+     .key = "mu",
+     .cases = {0.05, 0.1, 0.2, 0.25, 0.3, 0.32, 0.34, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1.0},
+     .is_stable_below = true},
+    {.name = "fig10b",
+     .symbol = "v0",
+     .unit = "m/s",
+     .title = "Fig. 10b, µs = 0.3, α = -0.02 s/m, β + γ = 1",
+     .axis = "disc speed v0  [m/s]",
+     .set = "alpha -0.02 kt 0.5 k 0.5 v_max 10 v0 1",
+     .from = 0.05,
+     .to = 2.5,
+     .paper = 1.38,
+     .search_n = {6.0, 7.0},
+     .reference_n = 6.5841,
+     .one = {0.3, 1.2},
+     .two = {0.7, 0.8},
+     .reference = {0.48592, 0.96789},
+     .key = "v",
+     .cases = {0.1, 0.25, 0.5, 0.75, 0.9, 1.0, 1.1, 1.25, 1.38, 1.5, 1.75, 2.0, (double)NAN},
+     .is_stable_below = false}};
 
 static void set(struct lab *lab, const struct diagram *diagram, double force_n)
 {
@@ -64,59 +69,6 @@ static void set(struct lab *lab, const struct diagram *diagram, double force_n)
 }
 
 /* --- The diagram ---------------------------------------------------------------------------------------------------- */
-
-struct sweep {
-    struct table strobes; /* value, way (1 up, -1 down), x */
-    unsigned places, unsettled, diverged;
-    double *end[2]; /* highest strobe at each place, up and down */
-    double low, high;
-};
-
-static void sweep_point(struct lab *lab, const struct diagram *diagram, struct sweep *sweep, unsigned place, bool is_up)
-{
-    const double value = diagram->from + (diagram->to - diagram->from) * place / (sweep->places - 1);
-
-    lab_put(lab, diagram->symbol, value);
-    const struct orbit orbit = orbit_settle(lab, lab_options(lab)->is_small ? MOST_PERIODS_SMALL : MOST_PERIODS);
-    sweep->unsettled += orbit.is_settled || orbit.is_diverging ? 0 : 1;
-    sweep->end[is_up ? 0 : 1][place] = (double)NAN;
-    if (orbit.is_diverging) {
-        sweep->diverged++;
-        lab_reset(lab);
-        return;
-    }
-    for (int i = 0; i < (orbit.is_settled ? 2 : ORBIT_STROBES); i++) {
-        table_add(lab, &sweep->strobes, (const double[]){value, is_up ? 1.0 : -1.0, orbit.x_m[i]});
-        sweep->end[is_up ? 0 : 1][place] = fmax(sweep->end[is_up ? 0 : 1][place], orbit.x_m[i]);
-        sweep->low = fmin(sweep->low, orbit.x_m[i]);
-        sweep->high = fmax(sweep->high, orbit.x_m[i]);
-    }
-}
-
-/* From the start of the set up to the end of the axis and back, never reset but after running away. */
-static struct sweep sweep_make(struct lab *lab, const struct diagram *diagram)
-{
-    const unsigned places = lab_options(lab)->is_small ? PLACES_SMALL : PLACES;
-    struct sweep sweep = {.strobes = table_begin("value,way,x[m]"), .places = places};
-
-    sweep.end[0] = lab_memory(lab, places, sizeof(double));
-    sweep.end[1] = lab_memory(lab, places, sizeof(double));
-    for (unsigned i = 0; i < 2 * places; i++) {
-        sweep_point(lab, diagram, &sweep, i < places ? i : 2 * places - 1 - i, i < places);
-    }
-    return sweep;
-}
-
-/* Places at which it matters from where one comes. */
-static unsigned hysteresis(const struct sweep *sweep)
-{
-    unsigned places = 0;
-
-    for (unsigned i = 0; i < sweep->places; i++) {
-        places += fabs(sweep->end[0][i] - sweep->end[1][i]) > HYSTERESIS * (sweep->high - sweep->low) ? 1 : 0;
-    }
-    return places;
-}
 
 static const char commands[] =
     "set title headline offset 0,1.3\nset xlabel axis\nset ylabel 'x once a normal period  [m]'\nset xrange [from:to]\n"
@@ -139,7 +91,7 @@ static unsigned draw(struct lab *lab, const struct diagram *diagram, double forc
     char caption[TEXT_SIZE], force[TEXT_SIZE / 4];
 
     set(lab, diagram, force_n);
-    const struct sweep sweep = sweep_make(lab, diagram);
+    const struct sweep sweep = sweep_make(lab, diagram->symbol, diagram->from, diagram->to);
     FILE *script = lab_figure_open(lab);
     (void)snprintf(force, sizeof force, what[strstr(name, "paper") != NULL ? 1 : 0], force_n);
     table_block(script, &sweep.strobes, "strobes");
@@ -158,7 +110,7 @@ static unsigned draw(struct lab *lab, const struct diagram *diagram, double forc
     lab_number(lab, force, "places of the sweep, up and down", 2.0 * sweep.places, "1");
     lab_number(lab, force, "not at rest after the longest wait", sweep.unsettled, "1");
     lab_number(lab, force, "ran away", sweep.diverged, "1");
-    lab_number(lab, force, "differ upwards and downwards", hysteresis(&sweep), "1");
+    lab_number(lab, force, "differ upwards and downwards", sweep_hysteresis(&sweep), "1");
     table_save(lab, &sweep.strobes, name, "x once a normal period over the parameter, way 1 upwards, -1 downwards");
     return sweep.unsettled;
 }
@@ -187,6 +139,25 @@ static double find_force(struct lab *lab, const struct diagram *diagram)
     return force_n;
 }
 
+/* The range of x at single places, beside the golden table. */
+static void compare_cases(struct lab *lab, const struct diagram *diagram)
+{
+    char name[TEXT_SIZE], subject[TEXT_SIZE];
+
+    for (size_t i = 0; i < CASES && !isnan(diagram->cases[i]); i += lab_options(lab)->is_small ? 4 : 1) {
+        for (int force_n = 1; force_n <= 5; force_n += 4) {
+            (void)snprintf(name, sizeof name, "%s_N%d_%s%g", diagram->name, force_n, diagram->key, diagram->cases[i]);
+            (void)snprintf(subject, sizeof subject, "%s = %g%s, N = %d N", diagram->symbol, diagram->cases[i],
+                           strcmp(diagram->unit, "1") == 0 ? "" : " m/s", force_n);
+            set(lab, diagram, force_n);
+            lab_setf(lab, "%s %.9g v_max 0", diagram->symbol, diagram->cases[i]);
+            const double reference = lab_reference(lab, name, "xpp");
+            lab_compare(lab, subject, "x, peak to peak", lab_xpp_m(lab, (unsigned)lab_reference(lab, name, "ntrans")),
+                        "m", reference, LIMIT_DOUBLING * reference);
+        }
+    }
+}
+
 /* Period 1 on the side that the paper calls stable, next to the change; and on the other side, far away. */
 static void judge(struct lab *lab, const struct diagram *diagram, double force_n, const double ends[2],
                   unsigned unsettled)
@@ -196,7 +167,7 @@ static void judge(struct lab *lab, const struct diagram *diagram, double force_n
     const double other = diagram->is_stable_below ? ends[1] : ends[0];
     char name[TEXT_SIZE];
 
-    (void)snprintf(name, sizeof name, "%s-paper", diagram->name);
+    (void)snprintf(name, sizeof name, "%s-n5", diagram->name);
     lab_claim(
         lab, diagram->name, is_there ? PAPER_IN_PART : PAPER_REFUTED, name,
         "the period doubles at %.4g if N = %.4g N, which the paper does not state; on the other side motion is not "
@@ -219,16 +190,19 @@ static void run(struct lab *lab, const struct diagram *diagram)
         "closes again. The ends of the bubble are where the multiplier of the alternating part of the motion, as it "
         "dies "
         "out on the device, reaches -1.");
-    (void)snprintf(name, sizeof name, "%s-n1", diagram->name);
-    unsigned unsettled = draw(lab, diagram, 1.0, name, none);
-    (void)snprintf(name, sizeof name, "%s-n5", diagram->name);
+    unsigned unsettled = 0;
     compare_ends(lab, diagram, ends);
-    unsettled += draw(lab, diagram, 5.0, name, ends);
     const double force_n = find_force(lab, diagram);
-    if (force_n > 0.0) {
+    (void)snprintf(name, sizeof name, "%s-n5", diagram->name);
+    unsettled += draw(lab, diagram, 5.0, name, ends);
+    if (!lab_options(lab)->is_small) {
+        (void)snprintf(name, sizeof name, "%s-n1", diagram->name);
+        unsettled += draw(lab, diagram, 1.0, name, none);
         (void)snprintf(name, sizeof name, "%s-paper", diagram->name);
-        unsettled += draw(lab, diagram, force_n, name, (const double[2]){diagram->paper, (double)NAN});
+        unsettled +=
+            force_n > 0.0 ? draw(lab, diagram, force_n, name, (const double[2]){diagram->paper, (double)NAN}) : 0;
     }
+    compare_cases(lab, diagram);
     judge(lab, diagram, force_n, ends, unsettled);
 }
 
@@ -266,7 +240,7 @@ static void judge_one_brake(struct lab *lab)
               error > LIMIT_ALIKE                                   ? PAPER_IN_PART
               : fabs(by_friction / by_speed - 1.0) > LIMIT_DOUBLING ? PAPER_REFUTED
                                                                     : PAPER_HOLDS,
-              "fig10b-paper",
+              "fig10b-n5",
               "friction and speed act by v0/mu_s alone, to %.1g of x on the device, so that both figures are one "
               "diagram; the "
               "paper's changes are at v0/mu_s = %.3g m/s and %.3g m/s and take two different forces",

@@ -9,7 +9,7 @@
 
 #include <math.h>
 
-enum { SETTLE_PERIODS = 700, WINDOW_PERIODS = 40, HALVINGS = 11, SPEEDS = 4, HARMONICS = 2 };
+enum { SETTLE_PERIODS = 600, WINDOW_PERIODS = 40, HALVINGS = 11, SPEEDS = 4, HARMONICS = 2 };
 enum { COLUMN_SUM, COLUMN_SPEED, COLUMN_XPP };
 
 /* By the reference solver: largest range of x and where, its place to the width of a hundredth. */
@@ -53,7 +53,8 @@ static double peak_find(struct lab *lab, int which)
     size_t count;
 
     lab_table1(lab, "k 0 v0 %.9g", peaks[which].speed);
-    (void)snprintf(axis, sizeof axis, "kt %.9g %.9g 41", peaks[which].place - 0.1, peaks[which].place + 0.1);
+    (void)snprintf(axis, sizeof axis, "kt %.9g %.9g %d", peaks[which].place - 0.1, peaks[which].place + 0.1,
+                   lab_options(lab)->is_small ? 21 : 41);
     const struct device_point *points = lab_scan(lab, axis, &span, &count);
     for (size_t i = 0; i < count; i++) {
         table_add(lab, &table, (const double[]){(double)points[i].at[0], lab_point_xpp_m(&points[i])});
