@@ -82,7 +82,7 @@ void experiment_floquet(struct lab *lab)
         "Growth of a disturbance of the slipping pad. Below 0 it dies out. At Z = 1/2 the normal oscillation feeds it: "
         "the tongue of parametric resonance. The one at Z = 1 is too weak to be seen.",
         commands);
-    table_save(lab, &curve, "floquet-curves",
+    table_save(lab, &curve, "floquet",
                "growth of permanent slip over Z, by the map over one period and in closed form");
     table_save(lab, &device, "floquet-device", "growth over Z by two plants on the device");
 }

@@ -12,6 +12,7 @@ enum { REAL, SOFT };
 
 #define SCALE 1e4 /* of impedance and frequency: the soft brake has 1 N/m for 10^8 N/m */
 #define LIMIT 2e-3
+#define SHOWN_N 3000.0
 
 static const double forces_n[FORCES] = {1000.0, 1900.0, 2100.0, 3000.0, 5000.0};
 
@@ -36,7 +37,7 @@ static struct device_point trial(struct lab *lab, int brake, double force_n)
 }
 
 /* Is what the device says of both the same? */
-static bool is_alike(struct lab *lab, double force_n, struct table *table)
+static bool is_alike(struct lab *lab, double force_n)
 {
     const struct device_point real = trial(lab, REAL, force_n), soft = trial(lab, SOFT, force_n);
     const bool is_loud = real.propensity == PROPENSITY_SQUEAL;
@@ -54,8 +55,6 @@ static bool is_alike(struct lab *lab, double force_n, struct table *table)
         lab_compare(lab, subject, "frequency, soft, scaled", pitch, "Hz", (double)real.frequency_hz,
                     LIMIT * (double)real.frequency_hz);
     }
-    table_add(lab, table,
-              (const double[]){force_n, lab_point_xpp_m(&real), lab_point_xpp_m(&soft), is_loud ? 1.0 : 0.0});
     return soft.propensity == real.propensity && soft.motion == real.motion &&
            (!is_loud || fabs(size / lab_point_xpp_m(&real) - 1.0) < LIMIT);
 }
@@ -63,25 +62,33 @@ static bool is_alike(struct lab *lab, double force_n, struct table *table)
 static const char commands[] =
     "set title 'Squeal of the realistic brake and of a soft one, N = 3000 N' offset 0,1.3\n"
     "set xlabel 'x over N/ke'\nset ylabel 'dx/dt over v0'\nset offsets graph 0.05, graph 0.05, graph 0.05, graph 0.05\n"
-    "plot $real with lines lw 2 lc rgb '" FIGURE_COLOUR_MOTION "' title 'ke = 10^8 N/m, 2 kHz', "
-    "$soft with points pt 6 ps 1.1 lc rgb '" FIGURE_COLOUR_DISC "' title 'ke = 1 N/m, 0.2 Hz'\n";
+    "plot $portrait using 2:3 with lines lw 2 lc rgb '" FIGURE_COLOUR_MOTION "' title 'ke = 10^8 N/m, 2 kHz', "
+    "$portrait using 4:5 every 4 with points pt 6 ps 1.1 lc rgb '" FIGURE_COLOUR_DISC "' title 'ke = 1 N/m, 0.2 Hz'\n";
+
+/* The end of the trial at 3000 N, in units of N/ke and v0. */
+static struct lab_track portrait(struct lab *lab, int brake, double unit[2])
+{
+    set(lab, brake, SHOWN_N);
+    unit[0] = lab_get(lab, "N1") / lab_get(lab, "ke");
+    unit[1] = lab_get(lab, "v0");
+    (void)lab_settle(lab, SETTLE_PERIODS);
+    return lab_record(lab, "x,xd", SHOWN_PERIODS, 1);
+}
 
 static void draw(struct lab *lab)
 {
-    FILE *script = lab_figure_open(lab);
+    struct table table = table_begin("step,x_real,v_real,x_soft,v_soft");
+    double real_unit[2], soft_unit[2];
+    const struct lab_track real = portrait(lab, REAL, real_unit), soft = portrait(lab, SOFT, soft_unit);
 
-    for (int brake = REAL; brake <= SOFT; brake++) {
-        const double force_n = 3000.0, scale = brake == REAL ? 1.0 : SCALE;
-        set(lab, brake, force_n);
-        const double size_m = force_n / scale / lab_get(lab, "ke"), speed = lab_get(lab, "v0");
-        (void)lab_settle(lab, SETTLE_PERIODS);
-        const struct lab_track track = lab_record(lab, "x,xd", SHOWN_PERIODS, 1);
-        (void)fprintf(script, "$%s << END\n", brake == REAL ? "real" : "soft");
-        for (size_t i = 0; i < track.count; i += brake == REAL ? 1 : 4) {
-            (void)fprintf(script, "%.6g %.6g\n", track.value[0][i] / size_m, track.value[1][i] / speed);
-        }
-        (void)fputs("END\n", script);
+    for (size_t i = 0; i < real.count && i < soft.count; i++) {
+        table_add(lab, &table,
+                  (const double[]){(double)real.step[i], real.value[0][i] / real_unit[0],
+                                   real.value[1][i] / real_unit[1], soft.value[0][i] / soft_unit[0],
+                                   soft.value[1][i] / soft_unit[1]});
     }
+    FILE *script = lab_figure_open(lab);
+    table_block(script, &table, "portrait");
     lab_figure_close(
         lab, script, "similarity",
         "Phase portrait in units of N/ke and v0: a brake of newtons a metre with the same dimensionless groups is the "
@@ -91,18 +98,15 @@ static void draw(struct lab *lab)
 
 void experiment_similarity(struct lab *lab)
 {
-    struct table table = table_begin("N[N],xpp_real[m],xpp_soft[m],loud");
     unsigned alike = 0, tried = 0;
 
     for (int i = 0; i < FORCES; i++) {
         if (!lab_options(lab)->is_small || i == 1 || i == 3) {
-            alike += is_alike(lab, forces_n[i], &table) ? 1 : 0;
+            alike += is_alike(lab, forces_n[i]) ? 1 : 0;
             tried++;
         }
     }
     draw(lab);
-    table_save(lab, &table, "similarity",
-               "range of x of the brake and of the soft one with its groups; N of the soft one is 10^-4 of it");
     lab_claim(lab, "small-stiffness",
               alike == tried ? PAPER_HOLDS
               : alike > 0    ? PAPER_IN_PART

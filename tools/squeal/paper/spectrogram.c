@@ -7,10 +7,10 @@
 #include <math.h>
 #include <stdlib.h>
 
-enum { EVERY = 4, WINDOW = 1024, FRAMES = 110, FRAMES_SMALL = 24, BANDS = 56, TEXT_SIZE = 256 };
+enum { EVERY = 4, TAIL = 4096, WINDOW = 1024, FRAMES = 110, FRAMES_SMALL = 24, BANDS = 56, TEXT_SIZE = 256 };
 
+#define PITCH_HZ 1999.5 /* of the preset's squeal, by the reference solver */
 #define HIGHEST_HZ 9000.0
-#define LOUDEST_DB 160.0
 #define FAINTEST_DB 60.0
 #define NANOMETRE 1e-9 /* m/s: 0 dB */
 
@@ -29,7 +29,7 @@ static const struct sound sounds[] = {
      "speed ramp v0 1.5 v1 0.05 tv1 0.06 tv2 0.4",
      "Velocity of the pad during a stop. Above the knee of friction the brake is "
      "quiet; below it squeals, ever less as the disc slows down, at the same pitch.",
-     0.42},
+     0.5},
 };
 
 /* Level of the strongest line of each band, in dB. */
@@ -56,10 +56,28 @@ static void window_write(struct lab *lab, FILE *script, const double *samples, d
     (void)fputc('\n', script);
 }
 
+/* The pitch at the end. */
+static void tell(struct lab *lab, const struct sound *sound, const struct lab_track *track, double rate_hz)
+{
+    struct spectrum spectrum;
+    const size_t count = track->count < TAIL ? track->count : TAIL;
+
+    if (!spectrum_make(&spectrum, track->value[0] + track->count - count, count, rate_hz)) {
+        lab_fail(lab, "no spectrum of %zu samples", count);
+    }
+    const size_t peak = spectrum_peak(&spectrum);
+    lab_compare(lab, sound->title, "pitch at the end", (double)peak * spectrum.step_hz, "Hz", PITCH_HZ,
+                spectrum.resolution_hz);
+    lab_number(lab, sound->title, "level of that line", 20.0 * log10(spectrum.amplitude[peak] / sqrt(2.0) / NANOMETRE),
+               "dB re 1 nm/s");
+    free(spectrum.amplitude);
+}
+
 static const char commands[] =
     "set title headline offset 0,0.3\nset xlabel 'time  [ms]'\nset ylabel 'frequency  [kHz]'\nset tmargin 3\nset "
     "rmargin 14\n"
-    "set xrange [0:length]\nset yrange [0:9]\nset cbrange [60:160]\nset cblabel 'velocity  [dB re 1 nm/s]' offset 1.5,0\n"
+    "set xrange [0:length]\nset yrange [0:9]\nset cbrange [60:160]\nset cblabel 'velocity  [dB re 1 nm/s]' offset "
+    "1.5,0\n"
     "set palette defined (0 '#f7f9fb', 0.3 '#b9cfe2', 0.6 '#f08c3a', 1 '#6b1d06')\nunset grid\nunset key\n"
     "plot $frames using 1:2:(wide):(high):3 with boxxyerror fs solid noborder fc palette\n";
 
@@ -85,6 +103,7 @@ static void run(struct lab *lab, const struct sound *sound)
                   1e3 * sound->length_s, 0.5e3 * sound->length_s / (frames - 1), 0.5 * HIGHEST_HZ / BANDS / 1e3);
     lab_figure_close(lab, script, sound->name, sound->caption, commands);
     lab_csv_tracks(lab, sound->name, &track, 1);
+    tell(lab, sound, &track, rate_hz);
 }
 
 void experiment_spectrogram(struct lab *lab)
