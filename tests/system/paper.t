@@ -26,6 +26,22 @@ VERDICTS = {
     "friction-law": "in part",
     "normal-motion": "refuted",
     "analytic-solution": "refuted",
+    "fig10a": "in part",
+    "fig10b": "in part",
+    "fig10-one-brake": "refuted",
+    "stick-from-5n": "refuted",
+    "size-force": "in part",
+    "size-slope": "in part",
+    "beyond-slope": "in part",
+    "force-before-slope": "holds",
+    "stiffer-smaller": "holds",
+    "resonance": "in part",
+    "resonance-squares": "refuted",
+    "stable-below-c": "in part",
+    "diverges-beyond-c": "in part",
+    "each-stiffness": "holds",
+    "fluctuation": "in part",
+    "small-stiffness": "holds",
 }
 VOID = {"meta", "link", "br", "img", "path", "use"}
 tap = Tap()

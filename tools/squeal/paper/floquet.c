@@ -9,18 +9,24 @@
 
 #include <math.h>
 
-enum { CURVE_POINTS = 301, GROWING_PERIODS = 150, DYING_PERIODS = 800, TEXT_SIZE = 64 };
+enum { CURVE_POINTS = 441, FEWEST_PERIODS = 24, MOST_PERIODS = 96, TEXT_SIZE = 64 };
 
-#define SHARE 0.9 /* N |alpha|/c */
-#define FAST 100.0
-#define LIMIT 0.01 /* of the rate without the normal oscillation's help, c/2m */
+#define SHARE 0.9   /* N |alpha|/c */
+#define DAMPING 0.1 /* c in N s/m, ten times that of Table 1: the tongue gets wide enough to be seen */
+#define SPEED 20.0  /* of the disc, in m/s: far from what the pad reaches */
+#define OFFSET_M 0.05
+#define FOLDS 5.0  /* of growth or decay, to be followed */
+#define LIMIT 0.01 /* of the rate at which damping alone takes it away, c/2m */
 
-static const double places[] = {0.3,   0.4,  0.44,  0.47, 0.485, 0.49, 0.495, 0.497, 0.498, 0.5,  0.502, 0.503,
-                                0.505, 0.51, 0.515, 0.53, 0.56,  0.6,  0.7,   0.85,  0.97,  1.03, 1.15,  1.3};
+static const double places[] = {0.3,  0.36, 0.4,   0.43, 0.445, 0.45, 0.46, 0.465, 0.47, 0.48, 0.49, 0.5, 0.51,
+                                0.52, 0.53, 0.535, 0.55, 0.56,  0.58, 0.6,  0.7,   0.85, 0.95, 1.0,  1.1, 1.2};
 
+/* Friction is 0 at the disc's speed, so that the load moves no pad that stands still, and all that moves is what one put in. */
 static void set(struct lab *lab, double z)
 {
-    lab_table1(lab, "k 0 kt %.9g v0 %.9g v_max %.9g alpha %.9g", z * z, FAST, 4.0 * FAST, -SHARE * 0.01);
+    const double slope = SHARE * DAMPING;
+
+    lab_table1(lab, "k 0 kt %.9g c %.9g v0 %.9g alpha %.9g mu_s %.9g", z * z, DAMPING, SPEED, -slope, slope * SPEED);
 }
 
 static struct table curves(struct lab *lab)
@@ -33,7 +39,7 @@ static struct table curves(struct lab *lab)
     lab_model(lab, &params, &scale);
     const double omega = (double)scale.omega_rad_per_s;
     for (int i = 0; i < CURVE_POINTS; i++) {
-        const double z = 0.25 + 1.1 * i / (CURVE_POINTS - 1);
+        const double z = 0.25 + 1.0 * i / (CURVE_POINTS - 1);
         const struct floquet_problem problem = {scale.damping, -(float)SHARE * scale.damping, (float)(z * z), 1.0f};
         table_add(
             lab, &table,
@@ -42,19 +48,19 @@ static struct table curves(struct lab *lab)
     return table;
 }
 
-/* What is small between two plants, whatever the load does to both. Where it grows, the pads must not reach the disc's speed. */
+/* A pad that stands, and one that starts five centimetres away from it. */
 static struct table measure(struct lab *lab)
 {
-    const double limit = LIMIT * 0.01 / (2.0 * 0.3);
+    const double limit = LIMIT * DAMPING / (2.0 * 0.3);
     struct table table = table_begin("Z,device[1/s]");
 
     for (size_t i = 0; i < sizeof places / sizeof places[0]; i += lab_options(lab)->is_small ? 3 : 1) {
         char subject[TEXT_SIZE];
         set(lab, places[i]);
         const double expected = (double)lab_analysis(lab).floquet_per_s;
-        const unsigned to = expected > 0.0 ? GROWING_PERIODS : DYING_PERIODS;
-        const double offset_m = expected > 0.0 ? 0.1 : 1.0;
-        const double growth = orbit_parting(lab, offset_m, to / 2, to, NULL) / lab_period_s(lab);
+        const double long_enough = FOLDS / fabs(expected) / lab_period_s(lab);
+        const unsigned to = (unsigned)fmin(fmax(long_enough, FEWEST_PERIODS), MOST_PERIODS);
+        const double growth = orbit_parting(lab, OFFSET_M, to / 2, to, NULL) / lab_period_s(lab);
         table_add(lab, &table, (const double[]){places[i], growth});
         (void)snprintf(subject, sizeof subject, "Z = %g", places[i]);
         lab_compare(lab, subject, "growth", growth, "1/s", expected, limit);
@@ -63,7 +69,8 @@ static struct table measure(struct lab *lab)
 }
 
 static const char commands[] =
-    "set title 'Growth of permanent slip, N |" FIGURE_ALPHA "| = 0.9 c' offset 0,1.3\nset xrange [0.25:1.35]\n"
+    "set title 'Growth of permanent slip, N |" FIGURE_ALPHA
+    "| = 0.9 c, c = 0.1 N s/m' offset 0,1.3\nset xrange [0.25:1.25]\n"
     "set xlabel 'Z, frequency of the pad over that of the normal direction'\nset ylabel 'growth  [1/s]' offset -1.5,0\n"
     "set lmargin 14\nset xzeroaxis lt 1 lc rgb '#606060'\nset offsets 0, 0, graph 0.06, graph 0.06\n"
     "plot $curves using 1:2 with lines lw 3 lc rgb '" FIGURE_COLOUR_DISC "' title 'map over one period', "

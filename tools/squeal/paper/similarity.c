@@ -94,6 +94,7 @@ static void draw(struct lab *lab)
         "Phase portrait in units of N/ke and v0: a brake of newtons a metre with the same dimensionless groups is the "
         "same brake, ten thousand times slower.",
         commands);
+    table_save(lab, &table, "similarity", "phase portraits at 3000 N in units of N/ke and v0");
 }
 
 void experiment_similarity(struct lab *lab)
