@@ -85,11 +85,11 @@ void experiment_floquet(struct lab *lab)
     table_block(script, &curve, "curves");
     table_block(script, &device, "device");
     lab_figure_close(
-        lab, script, "floquet",
+        lab, script, "floquet-growth",
         "Growth of a disturbance of the slipping pad. Below 0 it dies out. At Z = 1/2 the normal oscillation feeds it: "
         "the tongue of parametric resonance. The one at Z = 1 is too weak to be seen.",
         commands);
-    table_save(lab, &curve, "floquet",
+    table_save(lab, &curve, "floquet-growth",
                "growth of permanent slip over Z, by the map over one period and in closed form");
     table_save(lab, &device, "floquet-device", "growth over Z by two plants on the device");
 }

@@ -56,11 +56,11 @@ static void draw(struct lab *lab, const struct table *table)
     }
     (void)fprintf(script, "'\npad = %.9g\n", sqrt((lab_get(lab, "kt") + lab_get(lab, "k")) / lab_get(lab, "ke")));
     lab_figure_close(
-        lab, script, "fluctuation",
+        lab, script, "fluctuation-size",
         "Range of x over the frequency of the force's fluctuation, by its depth. It answers where the force meets the "
         "normal direction's frequency or the pad's; red: the device calls it squeal.",
         commands);
-    table_save(lab, table, "fluctuation", "range of x over the frequency of the force, over fn, and its depth");
+    table_save(lab, table, "fluctuation-size", "range of x over the frequency of the force, over fn, and its depth");
 }
 
 /* Of one depth: where it squeals, and how much larger than at the lowest frequency the motion gets. */
@@ -98,7 +98,7 @@ void experiment_fluctuation(struct lab *lab)
               loud[DEPTHS - 1] == count ? PAPER_HOLDS
               : loud[DEPTHS - 1] > 0    ? PAPER_IN_PART
                                         : PAPER_REFUTED,
-              "fluctuation",
+              "fluctuation-size",
               "without fluctuation the pad is at rest; a fluctuation of %g %% makes it squeal at %u of %u frequencies "
               "from 0.05 fn "
               "to 2.5 fn, one of %g %% at %u: near the frequency of the normal direction and that of the pad",

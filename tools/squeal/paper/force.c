@@ -64,11 +64,11 @@ static void draw(struct lab *lab, const struct table *table, double stick_n)
     table_block(script, table, "size");
     (void)fprintf(script, "stick = %.9g\npaper = %.9g\n", stick_n, PAPER_STICK_N);
     lab_figure_close(
-        lab, script, "force",
+        lab, script, "force-size",
         "Range of x on the attractor over the brake force; filled where the pad sticks or overtakes the disc. At "
         "5 N, where the paper has its change, nothing happens.",
         commands);
-    table_save(lab, table, "force",
+    table_save(lab, table, "force-size",
                "range of x on the attractor from rest; sticks: 1 if the pad sticks or overtakes the disc");
 }
 
@@ -108,7 +108,8 @@ void experiment_force(struct lab *lab)
         lab_compare(lab, i == 0 ? "N = 3 N, before the dip" : "N = 4.9 N, in the dip", "x, peak to peak",
                     lab_xpp_m(lab, SETTLE_PERIODS), "m", reference_dip[i][1], LIMIT * reference_dip[i][1]);
     }
-    lab_claim(lab, "stick-from-5n", fabs(stick_n / PAPER_STICK_N - 1.0) < NEAR ? PAPER_HOLDS : PAPER_REFUTED, "force",
+    lab_claim(lab, "stick-from-5n", fabs(stick_n / PAPER_STICK_N - 1.0) < NEAR ? PAPER_HOLDS : PAPER_REFUTED,
+              "force-size",
               "the pad sticks from %.4g N on, where its forced motion reaches the disc's speed, and touches that speed "
               "in the "
               "transient from %.4g N on; at 5 N nothing changes",
@@ -120,7 +121,7 @@ void experiment_force(struct lab *lab)
         growth < 1.0  ? PAPER_REFUTED
         : dip > LIMIT ? PAPER_IN_PART
                       : PAPER_HOLDS,
-        "force",
+        "force-size",
         "%.3g times from 0.2 N to 50 N, in proportion as long as the pad slips; then slower, with a dip of %.2g %% "
         "above %.2g N",
         growth, 100.0 * dip, from_n);

@@ -87,14 +87,15 @@ void experiment_onset(struct lab *lab)
     table_block(script, &table, "size");
     const unsigned owners = borders(lab, script, text);
     lab_figure_close(
-        lab, script, "onset",
+        lab, script, "onset-size",
         "From the quiet Table 1 one stiffness at a time. Filled: the device calls it squeal; dotted: the border that "
         "it finds. kt and k are one curve, since only their sum acts.",
         commands);
-    table_save(lab, &table, "onset", "range of x over one stiffness, the others being 1 N/m; which: 0 ke, 1 kt, 2 k");
+    table_save(lab, &table, "onset-size",
+               "range of x over one stiffness, the others being 1 N/m; which: 0 ke, 1 kt, 2 k");
     lab_claim(lab, "each-stiffness",
               owners == WHICH ? PAPER_HOLDS
               : owners > 0    ? PAPER_IN_PART
                               : PAPER_REFUTED,
-              "onset", "from the quiet Table 1 squeal begins with %s; what matters is (kt + k)/ke alone", text);
+              "onset-size", "from the quiet Table 1 squeal begins with %s; what matters is (kt + k)/ke alone", text);
 }

@@ -75,11 +75,11 @@ static void draw(struct lab *lab, double start_m_per_s, double cycle)
     lab_figure_block(script, "cycle", &orbit, 0, 1);
     (void)fprintf(script, "shown = %.9g\n", 2.0 * cycle);
     lab_figure_close(
-        lab, script, "outer",
+        lab, script, "outer-cycle",
         "A pad that starts a little below the border comes to stick and stays; a little above it runs away. The "
         "orbit between is an unstable cycle, which no run from rest shows.",
         commands);
-    lab_csv_tracks(lab, "outer", tracks, 2);
+    lab_csv_tracks(lab, "outer-cycle", tracks, 2);
 }
 
 void experiment_outer(struct lab *lab)
@@ -102,7 +102,8 @@ void experiment_outer(struct lab *lab)
     }
     draw(lab, start_m_per_s, cycle);
     lab_claim(
-        lab, "diverges-beyond-c", bounded > 0 ? (cycle > 0.0 ? PAPER_IN_PART : PAPER_REFUTED) : PAPER_HOLDS, "outer",
+        lab, "diverges-beyond-c", bounded > 0 ? (cycle > 0.0 ? PAPER_IN_PART : PAPER_REFUTED) : PAPER_HOLDS,
+        "outer-cycle",
         "from rest %u of the cases tried stay bounded, by sticking; a pad runs away only if it is faster than an "
         "unstable "
         "outer cycle, %.3g m/s at alpha = -0.1 s/m, and only as long as no floor keeps friction from turning round",

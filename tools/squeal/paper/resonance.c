@@ -111,12 +111,12 @@ static void draw(struct lab *lab, const struct table *table, const double sticks
     (void)fprintf(script, "sticks0 = %.9g\nsticks1 = %.9g\nwn = %.9g\n", sticks[0], sticks[1],
                   2.0 * acos(-1.0) / lab_period_s(lab));
     lab_figure_close(
-        lab, script, "resonance",
+        lab, script, "resonance-size",
         "Range of x over beta + gamma, in units of v0/wn. The slow disc holds the pad: its largest motion is flat and "
         "lies above 1; the faster it turns, the nearer comes resonance to 1. Dashed: where the pad sticks at 1 m/s. "
         "Nothing shows at 4.",
         commands);
-    table_save(lab, table, "resonance", "range of x over beta + gamma (kt, k = 0, ke = 1), by the disc's speed");
+    table_save(lab, table, "resonance-size", "range of x over beta + gamma (kt, k = 0, ke = 1), by the disc's speed");
 }
 
 static void judge(struct lab *lab, const double sticks[2], const double places[SPEEDS])
@@ -128,12 +128,12 @@ static void judge(struct lab *lab, const double sticks[2], const double places[S
               is_at_one      ? PAPER_HOLDS
               : comes_to_one ? PAPER_IN_PART
                              : PAPER_REFUTED,
-              "resonance",
+              "resonance-size",
               "at the paper's 1 m/s the motion is largest at %.3g, and the pad sticks from %.3g to %.3g; at 2, 5 and "
               "60 m/s, where "
               "the disc holds the pad less and less, it is largest at %.3g, %.3g and %.3g",
               places[0], sticks[0], sticks[1], places[1], places[2], places[3]);
-    lab_claim(lab, "resonance-squares", shows_4 || shows_9 ? PAPER_IN_PART : PAPER_REFUTED, "resonance",
+    lab_claim(lab, "resonance-squares", shows_4 || shows_9 ? PAPER_IN_PART : PAPER_REFUTED, "resonance-size",
               "the motion is %s at 4 and %s at 9 than on both sides, within 5 %%", shows_4 ? "larger" : "not larger",
               shows_9 ? "larger" : "not larger");
 }
@@ -162,7 +162,7 @@ void experiment_resonance_map(struct lab *lab)
 {
     const unsigned points = lab_options(lab)->is_small ? 8 : 40;
     const struct lab_map map = {
-        .name = "resonance-map",
+        .name = "resonance-force",
         .title = "Where Table 1 squeals: " BETA_GAMMA " and the brake force",
         .subtitle = "v0 = 1 m/s, alpha = -0.002 s/m, c = 0.01 N s/m",
         .caption = "Trials over beta + gamma and the brake force, with the border that the closed form "

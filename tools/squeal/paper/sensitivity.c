@@ -78,12 +78,12 @@ void experiment_sensitivity(struct lab *lab)
     FILE *script = lab_figure_open(lab);
     table_block(script, &table, "along");
     lab_figure_close(
-        lab, script, "sensitivity",
+        lab, script, "sensitivity-along",
         "Range of x while N grows and the slope falls, their product being kept: were they worth the same, this "
         "would be level.",
         commands);
-    table_save(lab, &table, "sensitivity", "range of x along N |alpha| = 0.1 kg/s");
-    lab_claim(lab, "force-before-slope", weakest > 1.0 ? PAPER_HOLDS : PAPER_REFUTED, "sensitivity",
+    table_save(lab, &table, "sensitivity-along", "range of x along N |alpha| = 0.1 kg/s");
+    lab_claim(lab, "force-before-slope", weakest > 1.0 ? PAPER_HOLDS : PAPER_REFUTED, "sensitivity-along",
               "a percent of N changes the size at least %.3g times as much as a percent of alpha, at each of four "
               "points; along "
               "N |alpha| = 0.1 kg/s it grows from %.4g m to %.4g m",

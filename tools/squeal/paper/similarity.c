@@ -90,11 +90,11 @@ static void draw(struct lab *lab)
     FILE *script = lab_figure_open(lab);
     table_block(script, &table, "portrait");
     lab_figure_close(
-        lab, script, "similarity",
+        lab, script, "similarity-portrait",
         "Phase portrait in units of N/ke and v0: a brake of newtons a metre with the same dimensionless groups is the "
         "same brake, ten thousand times slower.",
         commands);
-    table_save(lab, &table, "similarity", "phase portraits at 3000 N in units of N/ke and v0");
+    table_save(lab, &table, "similarity-portrait", "phase portraits at 3000 N in units of N/ke and v0");
 }
 
 void experiment_similarity(struct lab *lab)
@@ -112,7 +112,7 @@ void experiment_similarity(struct lab *lab)
               alike == tried ? PAPER_HOLDS
               : alike > 0    ? PAPER_IN_PART
                              : PAPER_REFUTED,
-              "similarity",
+              "similarity-portrait",
               "at %u of %u forces, quiet and loud, a brake with ke = 1 N/m and the dimensionless groups of one with "
               "10^8 N/m has its "
               "verdict, its motion, and its size and frequency in proportion to %g",

@@ -66,7 +66,7 @@ static void judge_size(struct lab *lab, const struct table *table, size_t below)
               late > 1.0    ? PAPER_HOLDS
               : early > 1.0 ? PAPER_IN_PART
                             : PAPER_REFUTED,
-              "slope",
+              "slope-size",
               "from %.4g s/m to %.4g s/m the size on the attractor falls to %.4g of itself, as mu_s + alpha v0 does; "
               "only the "
               "transient lasts longer, so that a picture of the first %d periods is %.3g times as large",
@@ -157,11 +157,11 @@ void experiment_slope(struct lab *lab)
     table_block(script, &table, "size");
     (void)fprintf(script, "change = %.9g\n", change);
     lab_figure_close(
-        lab, script, "slope",
+        lab, script, "slope-size",
         "Range of x over the slope of friction: at last, and over the first 40 periods from rest, which is what a "
         "short run shows.",
         commands);
-    table_save(lab, &table, "slope",
+    table_save(lab, &table, "slope-size",
                "range of x at last and over the first 40 periods; aperiodic: 1 if it has no period");
     judge_size(lab, &table, below);
     judge_beyond(lab, &table, below, change);

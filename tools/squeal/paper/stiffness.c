@@ -70,11 +70,11 @@ void experiment_stiffness(struct lab *lab)
     table_block(script, &table, "size");
     (void)fprintf(script, "runaway = %.9g\n", runaway);
     lab_figure_close(
-        lab, script, "stiffness",
+        lab, script, "stiffness-size",
         "Range of x over the stiffness: as printed, and with friction kept from turning round. At the paper's 5000 "
         "N/m the printed law runs away.",
         commands);
-    table_save(lab, &table, "stiffness",
+    table_save(lab, &table, "stiffness-size",
                "range of x over ke = kt = k, as printed (nan: runs away) and with mu_floor 0");
     lab_compare(lab, "the printed law runs away", "below ke", runaway, "N/m", REFERENCE_RUNAWAY,
                 LIMIT_RUNAWAY * REFERENCE_RUNAWAY);
@@ -82,7 +82,7 @@ void experiment_stiffness(struct lab *lab)
               table_at(&table, last, COLUMN_FLOOR) > table_at(&table, 0, COLUMN_FLOOR) ? PAPER_REFUTED
               : printed + floor > 0                                                    ? PAPER_IN_PART
                                                                                        : PAPER_HOLDS,
-              "stiffness",
+              "stiffness-size",
               "with friction kept positive from %.3g m at %.4g N/m to %.3g m at %.2g N/m, growing at %zu of %zu places "
               "between "
               "(as printed %zu); as printed the pad runs away below %.4g N/m, so also at the paper's 5000 N/m",
