@@ -7,7 +7,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-enum { EVERY = 4, TAIL = 4096, WINDOW = 1024, FRAMES = 110, FRAMES_SMALL = 24, BANDS = 56, TEXT_SIZE = 256 };
+enum { EVERY = 1, TAIL = 16384, WINDOW = 4096, FRAMES = 110, FRAMES_SMALL = 24, BANDS = 58, TEXT_SIZE = 256 };
 
 #define PITCH_HZ 1999.5 /* of the preset's squeal, by the reference solver */
 #define HIGHEST_HZ 9000.0
