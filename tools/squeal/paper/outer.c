@@ -73,7 +73,7 @@ static void draw(struct lab *lab, double start_m_per_s, double cycle)
     lab_figure_block(script, "slower", &tracks[0], 0, 1);
     lab_figure_block(script, "faster", &tracks[1], 0, 1);
     lab_figure_block(script, "cycle", &orbit, 0, 1);
-    (void)fprintf(script, "shown = %.9g\n", 2.0 * cycle);
+    (void)fprintf(script, "shown = %.9g\n", isnan(cycle) ? 10.0 : 2.0 * cycle);
     lab_figure_close(
         lab, script, "outer-cycle",
         "A pad that starts a little below the border comes to stick and stays; a little above it runs away. The "

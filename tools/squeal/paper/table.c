@@ -49,18 +49,6 @@ size_t table_peak(const struct table *table, size_t column)
     return peak;
 }
 
-double table_crossing(const struct table *table, size_t across, size_t up, double level, bool rises)
-{
-    for (size_t row = 1; row < table->rows; row++) {
-        const double x0 = table_at(table, row - 1, across), y0 = table_at(table, row - 1, up);
-        const double x1 = table_at(table, row, across), y1 = table_at(table, row, up);
-        if (rises ? y0 < level && y1 >= level : y0 >= level && y1 < level) {
-            return x0 + (x1 - x0) * (level - y0) / (y1 - y0);
-        }
-    }
-    return (double)NAN;
-}
-
 void table_save(struct lab *lab, const struct table *table, const char *name, const char *comment)
 {
     char header[HEADER_SIZE];

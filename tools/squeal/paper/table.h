@@ -20,9 +20,6 @@ double table_at(const struct table *table, size_t row, size_t column);
 /* The row with the largest value in a column; NaN is never the largest. */
 size_t table_peak(const struct table *table, size_t column);
 
-/* Where a column first rises to a level or falls to it, between two rows, by the straight line through them; NaN: nowhere. */
-double table_crossing(const struct table *table, size_t across, size_t up, double level, bool rises);
-
 /* NAME.csv. comment: what it holds. */
 void table_save(struct lab *lab, const struct table *table, const char *name, const char *comment);
 
