@@ -7,7 +7,7 @@ enum { SCAN_SIZE = 29, MARGIN_SIZE = 10, END_TALLIES = 12 };
 
 /* A study may be silent for long; so often the device is asked whether it is still there. */
 #define LOOK_AGAIN_S 2.0
-#define LISTEN_S 0.2
+#define LISTEN_S 0.01
 
 static void get_floats(struct bytes_reader *reader, float *const values[], size_t count)
 {

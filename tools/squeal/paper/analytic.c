@@ -1,6 +1,6 @@
 /* The check that the paper announces: its analytic solution of forced slip beside the device. Error by error in print, and
  * set right order by order (model/MODEL.md, "The paper's analytic solution"). */
-#include "squeal/paper/lab.h"
+#include "squeal/paper/lab_model.h"
 
 #include "analysis/perturbation.h"
 #include "squeal/plot/figure.h"
@@ -58,12 +58,8 @@ struct solution {
 /* The set in force, as the device has it. */
 static void solution_read(struct lab *lab, struct solution *solution)
 {
-    params_default(&solution->params);
-    for (size_t i = 0; i < params_count; i++) {
-        params_set(&solution->params, &params_table[i], (float)lab_get(lab, params_table[i].symbol));
-    }
-    if (scale_derive(&solution->params, NULL, &solution->scale).error != ERROR_OK ||
-        !perturbation_is_served(&solution->params, &solution->scale)) {
+    lab_model(lab, &solution->params, &solution->scale);
+    if (!perturbation_is_served(&solution->params, &solution->scale)) {
         lab_fail(lab, "the analytic solution does not serve this set");
     }
     for (int i = 0; i < FORMS; i++) {
