@@ -105,7 +105,7 @@ static struct step_q27_input input_q27(struct sim *sim)
 }
 
 /* What a controller holds is where lag and inertia go on from. */
-static void follow_f32(struct sim *sim)
+static BASE_NOINLINE void follow_f32(struct sim *sim)
 {
     const struct sim_plan *plan = sim->plan;
 
