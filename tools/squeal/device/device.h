@@ -3,7 +3,7 @@
  *
  *     struct device *device = device_open("qemu:mps2-an386", 5.0, problem);
  *     const int n1 = device_find(device, DEVICE_PARAMS, "N1");
- *     if (device_set(device, &(struct device_value){n1, 3000.0f}, 1, true, NULL) != DEVICE_OK) {
+ *     if (device_set(device, &(struct device_value){n1, 3000.0f}, 1, NULL, true, NULL) != DEVICE_OK) {
  *         puts(device_problem(device));
  *     }
  *

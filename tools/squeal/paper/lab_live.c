@@ -53,7 +53,7 @@ void lab_put(struct lab *lab, const char *symbol, double value)
 {
     const struct device_value change = {param_index(lab, symbol), (float)value};
 
-    lab_need(lab, device_set(lab->device, &change, 1, false, NULL));
+    lab_need(lab, device_set(lab->device, &change, 1, NULL, false, NULL));
 }
 
 struct device_point lab_trial(struct lab *lab, unsigned transient, unsigned window)
