@@ -116,6 +116,9 @@ tap.check(said == VERDICTS, "with the verdict that is known", *(f"{name}: {said.
                                                                 for name in {*said, *VERDICTS} if said.get(name) != VERDICTS.get(name)))
 tap.check(all(claim["measured"] and claim["paper"] and os.path.exists(f"{out}/{claim['evidence']}.svg") for claim in claims),
           "with what was measured, and a picture of it", str(claims))
+with open(os.path.join(TREE, "src/model/MODEL.md")) as file:
+    documented = dict(re.findall(r"^\| `([a-z0-9-]+)` \| .* \| (holds|in part|refuted) \|$", file.read(), re.MULTILINE))
+tap.check(documented == VERDICTS, "MODEL.md has the same", *sorted(documented.items() ^ VERDICTS.items()))
 verdicts = [number["verdict"] for number in numbers]
 tap.check(verdicts.count("agrees") >= 70 and "OFF" not in verdicts, "numbers agree with the reference", str(len(verdicts)))
 tap.check({number["experiment"] for number in numbers} == set(listed("experiments.def", "EXPERIMENT")), "of every experiment")
