@@ -31,7 +31,7 @@ SCRIPT = [
     ("set load sine N0 3 N1 1 fN 0.1743 contact no_pull speed ramp v0 1 v1 -1 tv1 20 tv2 400", 100000),
     ("set rough 0.02 runout 0.3 R 0.7 seed 5", 40000),
     ("set speed constant v0 -0.4 seed 16777215 cn 0.02 spp 128", 60000),
-    ("preset brake", 1),
+    ("preset stop", 1),
     ("table load 0 500 0.02 3000 0.02 2000 0.06 2500", 1),
     ("table speed 0.01 1.5 0.2 -0.5", 1),
     ("set load table lag 0.004 dither 200 f_dither 1700 speed table v_lag 0.01", 40000),
