@@ -61,6 +61,7 @@ MERIT      := build/tests/merit
 BENCH_LINK := build/tests/bench-link
 # What the link's bench measures by, where the board has a UART of its own: an image that does nothing but answer.
 ECHO       := $(if $(BOARD_ECHO),$(OUT_BOARD)/echo$(BOARD_SUFFIX))
+BENCH      := $(OUT_BOARD)/bench$(BOARD_SUFFIX)
 PICTURES   := build/tests/monitor
 CONVERGE   := build/tests/converge
 FUZZER     := build/fuzz/fuzzer
@@ -80,7 +81,9 @@ OBJECTS_BENCH := $(SOURCES_BENCH:%.c=build/tools/%.o)
 OBJECTS_REPLAY := $(patsubst %.c,build/unit/%.o,$(SOURCES) $(wildcard tests/fuzz/*.c))
 OBJECTS_FUZZER := $(patsubst %.c,build/fuzz/%.o,$(SOURCES) $(filter-out tests/fuzz/files.c,$(wildcard tests/fuzz/*.c)))
 OBJECTS_ECHO  := $(patsubst %.c,$(OUT_BOARD)/%.o,$(filter src/base/%,$(SOURCES)) $(SOURCES_BOARD) $(BOARD_ECHO))
-OBJECTS       := $(sort $(OBJECTS_IMAGE) $(OBJECTS_UNIT) $(OBJECTS_PROBE) $(OBJECTS_CONTROLLER) $(OBJECTS_HOST) $(OBJECTS_TOOL) \
+OBJECTS_TARGET := $(patsubst %.c,$(OUT_BOARD)/%.o,$(filter-out src/protocol/%,$(SOURCES)) $(SOURCES_BOARD) src/app/isr.c src/app/fault.c \
+                    $(wildcard tests/bench/target/*.c))
+OBJECTS       := $(sort $(OBJECTS_TARGET) $(OBJECTS_IMAGE) $(OBJECTS_UNIT) $(OBJECTS_PROBE) $(OBJECTS_CONTROLLER) $(OBJECTS_HOST) $(OBJECTS_TOOL) \
                         $(OBJECTS_LINE) $(OBJECTS_MERIT) $(OBJECTS_PICTURES) $(OBJECTS_CONVERGE) $(OBJECTS_BENCH) \
                         $(OBJECTS_REPLAY) $(OBJECTS_FUZZER) $(if $(ECHO),$(OBJECTS_ECHO)))
 
@@ -143,7 +146,8 @@ $(UNIT_IMAGE): BOARD_LDFLAGS += $(BOARD_LDFLAGS_UNIT)
 $(PROBE): $(OBJECTS_PROBE)
 $(CONTROLLER): $(OBJECTS_CONTROLLER)
 $(ECHO): $(OBJECTS_ECHO)
-$(IMAGE) $(UNIT_IMAGE) $(PROBE) $(CONTROLLER) $(ECHO): $(wildcard linker/*.ld)
+$(BENCH): $(OBJECTS_TARGET)
+$(IMAGE) $(UNIT_IMAGE) $(PROBE) $(CONTROLLER) $(ECHO) $(BENCH): $(wildcard linker/*.ld)
 	$(call say,LD,$@)
 	$(Q)$(BOARD_CC) $(CFLAGS_BOARD) $(BOARD_LDFLAGS) $(filter %.o,$^) -o $@ $(BOARD_LIBS)
 
