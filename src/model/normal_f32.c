@@ -41,6 +41,38 @@ static struct normal_f32_map make_map(float damping, float duration)
     return (struct normal_f32_map){-u, s, -s, -u - damping * s};
 }
 
+/* One column of what RK4 makes of (y - n, w) over a step: its stages and its end, less the identity. */
+static void make_rk4_column(float damping, float h, float d, float w, struct normal_f32_row *rows[3], bool is_w,
+                            float *y_end, float *w_end)
+{
+    const float half = 0.5f * h;
+    const float a1 = -d - damping * w;
+    const float w2 = w + half * a1;
+    const float y2 = half * w;
+    const float a2 = -(d + y2) - damping * w2;
+    const float w3 = w + half * a2;
+    const float y3 = half * w2;
+    const float a3 = -(d + y3) - damping * w3;
+    const float w4 = w + h * a3;
+    const float y4 = h * w3;
+    const float a4 = -(d + y4) - damping * w4;
+    const float y[3] = {y2, y3, y4};
+
+    for (int i = 0; i < 3; i++) {
+        *(is_w ? &rows[i]->yw : &rows[i]->yy) = y[i];
+    }
+    *y_end = h * (1.0f / 6.0f) * (w + 2.0f * (w2 + w3) + w4);
+    *w_end = h * (1.0f / 6.0f) * (a1 + 2.0f * (a2 + a3) + a4);
+}
+
+static void make_rk4(struct normal_f32_coeffs *coeffs, float h)
+{
+    struct normal_f32_row *rows[3] = {&coeffs->second, &coeffs->third, &coeffs->fourth};
+
+    make_rk4_column(coeffs->damping, h, 1.0f, 0.0f, rows, false, &coeffs->full.yy, &coeffs->full.wy);
+    make_rk4_column(coeffs->damping, h, 0.0f, 1.0f, rows, true, &coeffs->full.yw, &coeffs->full.ww);
+}
+
 void normal_f32_configure(struct normal_f32_coeffs *coeffs, const struct params *params, const struct scale *scale)
 {
     coeffs->damping = scale->normal_damping;
@@ -49,8 +81,15 @@ void normal_f32_configure(struct normal_f32_coeffs *coeffs, const struct params 
     coeffs->contact = (uint8_t)params->contact;
     coeffs->is_exact = (int)params->normal_method == NORMAL_EXACT;
     coeffs->has_phase = coeffs->is_exact && scale->normal_damping == 0.0f && coeffs->contact != CONTACT_LIFT;
-    coeffs->full = make_map(scale->normal_damping, scale->step);
-    coeffs->half = make_map(scale->normal_damping, 0.5f * scale->step);
+    if (coeffs->is_exact) {
+        const struct normal_f32_map half = make_map(scale->normal_damping, 0.5f * scale->step);
+
+        coeffs->full = make_map(scale->normal_damping, scale->step);
+        coeffs->second = coeffs->third = (struct normal_f32_row){half.yy, half.yw};
+        coeffs->fourth = (struct normal_f32_row){coeffs->full.yy, coeffs->full.yw};
+    } else {
+        make_rk4(coeffs, scale->step);
+    }
 }
 
 /* Printed, the contact pulls where y < 0; the other modes know no pull, and neither does the rounding of a touch at 0. */
@@ -82,8 +121,8 @@ void normal_f32_set_load(struct normal_f32 *normal, const struct normal_f32_coef
     normal->is_steady_from_rest = false;
     normal->least_force = least_force(normal, coeffs);
     if (coeffs->has_phase) {
-        normal->cosine -= change * sine_cosine_f32(normal->phase);
-        normal->sine -= change * sine_f32(normal->phase);
+        normal->cosine -= change * sine_quarter_f32[SINE_GRID / 4u - normal->phase];
+        normal->sine -= change * sine_quarter_f32[normal->phase];
     }
 }
 
@@ -116,24 +155,16 @@ static void look_rk4(const struct normal_f32 *normal, const struct normal_f32_co
     piece->p4 = normal_f32_force(normal, y4);
 }
 
-static void look_exact(const struct normal_f32 *normal, const struct normal_f32_coeffs *coeffs, float duration,
-                       bool is_whole, struct normal_f32_piece *piece)
+/* Part of a step, or one without the spring, in closed form. */
+static void look_series(const struct normal_f32 *normal, const struct normal_f32_coeffs *coeffs, float duration,
+                        struct normal_f32_piece *piece)
 {
+    const float spring = normal->is_lifted ? 0.0f : 1.0f;
     float middle;
+    float unused;
 
-    if (is_whole && !normal->is_lifted) {
-        const float d = normal->y - normal->n;
-
-        middle = coeffs->half.yy * d + coeffs->half.yw * normal->w;
-        piece->dy = coeffs->full.yy * d + coeffs->full.yw * normal->w;
-        piece->dw = coeffs->full.wy * d + coeffs->full.ww * normal->w;
-    } else {
-        const float spring = normal->is_lifted ? 0.0f : 1.0f;
-        float unused;
-
-        taylor(coeffs->damping, spring, normal->n, 0.5f * duration, normal->y, normal->w, &middle, &unused);
-        taylor(coeffs->damping, spring, normal->n, duration, normal->y, normal->w, &piece->dy, &piece->dw);
-    }
+    taylor(coeffs->damping, spring, normal->n, 0.5f * duration, normal->y, normal->w, &middle, &unused);
+    taylor(coeffs->damping, spring, normal->n, duration, normal->y, normal->w, &piece->dy, &piece->dw);
     piece->y = normal->y + piece->dy;
     piece->w = normal->w + piece->dw;
     piece->p1 = normal_f32_force(normal, normal->y);
@@ -145,22 +176,30 @@ static void look_exact(const struct normal_f32 *normal, const struct normal_f32_
 void normal_f32_look(const struct normal_f32 *normal, const struct normal_f32_coeffs *coeffs, float duration,
                      bool is_whole, struct normal_f32_piece *piece)
 {
-    if (coeffs->is_exact) {
-        look_exact(normal, coeffs, duration, is_whole, piece);
+    if (is_whole && !normal->is_lifted) {
+        normal_f32_look_end(normal, &coeffs->full, piece);
+        normal_f32_look_stages(normal, coeffs, coeffs->is_exact, piece);
+        normal_f32_press(normal, piece);
+    } else if (coeffs->is_exact) {
+        look_series(normal, coeffs, duration, piece);
     } else {
         look_rk4(normal, coeffs, duration, piece);
     }
 }
 
+BASE_NOINLINE uint32_t normal_f32_turn(struct normal_f32 *normal, uint32_t phase)
+{
+    const float cosine = normal->cosine;
+
+    normal->cosine = normal->sine;
+    normal->sine = -cosine;
+    return phase - SINE_GRID / 4u;
+}
+
 bool normal_f32_close_step(struct normal_f32 *normal, const struct normal_f32_coeffs *coeffs)
 {
-    normal->phase += coeffs->phase_stride;
     if (coeffs->has_phase) {
-        const float cosine = sine_cosine_f32(normal->phase);
-        const float sine = sine_f32(normal->phase);
-
-        normal->y = normal->n + normal->cosine * cosine + normal->sine * sine;
-        normal->w = normal->sine * cosine - normal->cosine * sine;
+        normal_f32_at(normal, normal->phase, &normal->y, &normal->w);
     }
     if (normal->is_lifted && normal->y < -PLANT_GAP_MAX) {
         normal->y = -PLANT_GAP_MAX;

@@ -9,11 +9,18 @@
 #include <stdbool.h>
 #include <stdint.h>
 
+#include "base/compiler.h"
 #include "base/fmath.h"
 #include "model/scale.h"
+#include "model/sine.h"
 
 struct normal_f32_map {
     float yy, yw, wy, ww; /* (y - n, w) changes by this matrix times (y - n, w) */
+};
+
+/* y at a stage changes by this row times (y - n, w). */
+struct normal_f32_row {
+    float yy, yw;
 };
 
 struct normal_f32_coeffs {
@@ -23,7 +30,8 @@ struct normal_f32_coeffs {
     bool is_exact;
     bool has_phase; /* exact, undamped and never lifted: y from an integer phase index */
     uint8_t contact;
-    struct normal_f32_map full, half; /* over h and h/2 */
+    struct normal_f32_map full; /* over h, of either method: the equation is linear, and so is RK4 of it */
+    struct normal_f32_row second, third, fourth; /* at the stages of RK4 */
 };
 
 struct normal_f32 {
@@ -31,7 +39,7 @@ struct normal_f32 {
     float y_rest, w_rest; /* what rounding took from them so far */
     float n;              /* brake force held over the present step */
     float cosine, sine;   /* y = n + cosine cos(phase) + sine sin(phase), where has_phase */
-    uint32_t phase;
+    uint32_t phase;       /* within a quarter turn; each full quarter turns the amplitudes instead */
     float least_force; /* the contact force is y, but never less than this: 0, or far below all y where it may pull */
     bool is_lifted;    /* spring off: contact lift and y < 0 */
     bool is_steady_from_rest; /* from rest under a force that never changed: y >= 0 but for rounding */
@@ -64,6 +72,53 @@ static inline void normal_f32_move(struct normal_f32 *normal, const struct norma
     normal->w = fmath_add_kept(normal->w, piece->dw, &normal->w_rest);
 }
 
+/* The way of y between two instants, as the cubic through displacement and velocity at both; t from 0 to 1. Friction does not
+ * act on y, so a step with switches of friction integrates y once and reads it off here. */
+struct normal_f32_arc {
+    float y, slope, square, cube; /* y + t (slope + t (square + t cube)) */
+};
+
+/* From the present state to the end of a piece that takes so long. */
+static inline struct normal_f32_arc normal_f32_arc_make(const struct normal_f32 *normal, float duration,
+                                                        const struct normal_f32_piece *piece)
+{
+    const float slope0 = duration * normal->w;
+    const float slope1 = duration * piece->w;
+
+    return (struct normal_f32_arc){normal->y, slope0, 3.0f * piece->dy - 2.0f * slope0 - slope1,
+                                   slope0 + slope1 - 2.0f * piece->dy};
+}
+
+static inline float normal_f32_arc_y(const struct normal_f32_arc *arc, float t)
+{
+    return arc->y + t * (arc->slope + t * (arc->square + t * arc->cube));
+}
+
+/* Each full quarter turns the amplitudes instead of the phase, which costs no bit. Returns the phase that is left. */
+uint32_t normal_f32_turn(struct normal_f32 *normal, uint32_t phase);
+
+/* A step begins: the phase goes on to its end. Returns it. */
+BASE_INLINE uint32_t normal_f32_open_step(struct normal_f32 *normal, const struct normal_f32_coeffs *coeffs)
+{
+    uint32_t phase = normal->phase + coeffs->phase_stride;
+
+    if (BASE_UNLIKELY(phase >= SINE_GRID / 4u)) {
+        phase = normal_f32_turn(normal, phase);
+    }
+    normal->phase = phase;
+    return phase;
+}
+
+/* Displacement and velocity on the grid. */
+BASE_INLINE void normal_f32_at(const struct normal_f32 *normal, uint32_t phase, float *y, float *w)
+{
+    const float sine = sine_quarter_f32[phase];
+    const float cosine = sine_quarter_f32[SINE_GRID / 4u - phase];
+
+    *y = normal->n + (normal->cosine * cosine + normal->sine * sine);
+    *w = normal->sine * cosine - normal->cosine * sine;
+}
+
 /* Closes a whole step: puts the undamped exact solution back on its grid, holds a gap at its limit. Returns true if the
  * gap was held. */
 bool normal_f32_close_step(struct normal_f32 *normal, const struct normal_f32_coeffs *coeffs);
@@ -72,6 +127,45 @@ bool normal_f32_close_step(struct normal_f32 *normal, const struct normal_f32_co
 static inline float normal_f32_force(const struct normal_f32 *normal, float y)
 {
     return y < normal->least_force ? normal->least_force : y;
+}
+
+/* The end of a whole step in contact, by the prepared map. */
+BASE_INLINE void normal_f32_look_end(const struct normal_f32 *normal, const struct normal_f32_map *full,
+                                     struct normal_f32_piece *piece)
+{
+    const float d = normal->y - normal->n;
+
+    piece->dy = full->yy * d + full->yw * normal->w;
+    piece->dw = full->wy * d + full->ww * normal->w;
+    piece->y = normal->y + piece->dy;
+    piece->w = normal->w + piece->dw;
+}
+
+/* The displacements of its stages, in the places of the forces. Where the closed form is used the middle two are one, and the
+ * last is that of the end. */
+BASE_INLINE void normal_f32_look_stages(const struct normal_f32 *normal, const struct normal_f32_coeffs *coeffs,
+                                        bool is_exact, struct normal_f32_piece *piece)
+{
+    const float d = normal->y - normal->n;
+
+    piece->p1 = normal->y;
+    piece->p2 = normal->y + (coeffs->second.yy * d + coeffs->second.yw * normal->w);
+    if (is_exact) {
+        piece->p3 = piece->p2;
+        piece->p4 = piece->y;
+    } else {
+        piece->p3 = normal->y + (coeffs->third.yy * d + coeffs->third.yw * normal->w);
+        piece->p4 = normal->y + (coeffs->fourth.yy * d + coeffs->fourth.yw * normal->w);
+    }
+}
+
+/* From them to the forces. */
+BASE_INLINE void normal_f32_press(const struct normal_f32 *normal, struct normal_f32_piece *piece)
+{
+    piece->p1 = normal_f32_force(normal, piece->p1);
+    piece->p2 = normal_f32_force(normal, piece->p2);
+    piece->p3 = normal_f32_force(normal, piece->p3);
+    piece->p4 = normal_f32_force(normal, piece->p4);
 }
 
 #endif

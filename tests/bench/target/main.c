@@ -19,7 +19,7 @@
 enum {
     CALLS_TO_NOTHING = 16,
     PAINT = 0xA5,
-    TICK_HZ = 100,   /* slow beside any handler, whatever an instruction takes */
+    TICK_HZ = 100,       /* slow beside any handler, whatever an instruction takes */
     TICKS_AT_ONCE = 256, /* fit the ring of samples */
     TICKS = 8 * TICKS_AT_ONCE
 };
@@ -214,8 +214,7 @@ static void watch(uint32_t ticks)
 
 static void measure_interrupt(const char *arith, const char *name, uint32_t sample_every)
 {
-    struct executive *executive =
-        subjects_executive("N0 10 alpha -0.02 normal exact tick 100", arith, sample_every);
+    struct executive *executive = subjects_executive("N0 10 alpha -0.02 normal exact tick 100", arith, sample_every);
     struct sample sample;
 
     memset(tallies, 0, sizeof tallies);

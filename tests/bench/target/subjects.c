@@ -12,11 +12,7 @@
 #define SLIP "N0 1"
 #define EVENTS "N0 50 alpha -0.02 normal exact spp 32"
 
-enum {
-    PERIODS = 25,
-    STEPS = PERIODS * 64,
-    EVENTFUL = 4000
-};
+enum { PERIODS = 25, STEPS = PERIODS * 64, EVENTFUL = 4000 };
 
 static struct sim_plan plan;
 static struct sim sim;
@@ -134,13 +130,9 @@ static bool no_detector_push(struct detector *detector, const struct plant_outpu
 
 static bool (*volatile detector_function)(struct detector *, const struct plant_output *);
 
-static void aim_detector(bool at_nothing)
-{
-    detector_function = at_nothing ? no_detector_push : detector_push;
-}
+static void aim_detector(bool at_nothing) { detector_function = at_nothing ? no_detector_push : detector_push; }
 
 static void call_detector(void) { (void)detector_function(&sim.detector, &sim.output); }
-
 
 static bool no_executive_tick(struct executive *which, bool is_due)
 {
@@ -210,14 +202,14 @@ static float displacement_sim(void)
     return sample_displacement(&sample, &plan.scale) * plan.scale.length_m;
 }
 
-#define STEP(variant, setting, count)                                                                               \
-    {variant, "f32", setting, "step_f32_advance", start_sim, NULL, call_f32, aim_f32, count, displacement_sim},      \
-    {                                                                                                                \
-        variant, "q27", setting, "step_q27_advance", start_sim, NULL, call_q27, aim_q27, count, displacement_sim     \
+#define STEP(variant, setting, count)                                                                            \
+    {variant, "f32", setting, "step_f32_advance", start_sim, NULL, call_f32, aim_f32, count, displacement_sim},  \
+    {                                                                                                            \
+        variant, "q27", setting, "step_q27_advance", start_sim, NULL, call_q27, aim_q27, count, displacement_sim \
     }
-#define AROUND(variant, function, start, prepare, call, aim)                                    \
-    {variant, "f32", STICKSLIP " normal exact", function, start, prepare, call, aim, STEPS, NULL}, \
-    {                                                                                              \
+#define AROUND(variant, function, start, prepare, call, aim)                                        \
+    {variant, "f32", STICKSLIP " normal exact", function, start, prepare, call, aim, STEPS, NULL},  \
+    {                                                                                               \
         variant, "q27", STICKSLIP " normal exact", function, start, prepare, call, aim, STEPS, NULL \
     }
 

@@ -47,7 +47,7 @@ static BASE_NOINLINE void NAME(runge_kutta)(NAME(rates) rates, REAL time, REAL s
 static const volatile NAME(rates) NAME(chosen) = NAME(equation_20);
 static volatile int NAME(states) = 4;
 
-void NAME(textbook_start)(struct NAME(textbook) *pad, float load_n, float slope_s_per_m, float step_s)
+void NAME(textbook_start)(struct NAME(textbook) * pad, float load_n, float slope_s_per_m, float step_s)
 {
     NAME(pad).mass = (REAL)0.3;
     NAME(pad).damping = (REAL)0.01;
@@ -60,7 +60,7 @@ void NAME(textbook_start)(struct NAME(textbook) *pad, float load_n, float slope_
     *pad = (struct NAME(textbook)){.step_s = step_s};
 }
 
-void NAME(textbook_step)(struct NAME(textbook) *pad)
+void NAME(textbook_step)(struct NAME(textbook) * pad)
 {
     NAME(runge_kutta)(NAME(chosen), pad->time_s, pad->step_s, pad->state, NAME(states));
     pad->time_s += pad->step_s;
