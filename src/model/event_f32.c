@@ -295,7 +295,10 @@ void event_f32_step(struct step_f32 *s, const struct step_f32_coeffs *c, struct 
     bool contact_changes;
 
     if (attempt != NULL) {
-        piece = attempt->piece;
+        piece.y = attempt->y;
+        piece.w = attempt->w;
+        piece.dy = attempt->y - s->normal.y;
+        piece.dw = attempt->w - s->normal.w;
         known = attempt->end;
     } else {
         normal_f32_look(&s->normal, &c->normal, c->normal.step, true, &piece);

@@ -338,8 +338,9 @@ void event_q27_step(struct step_q27 *s, const struct step_q27_coeffs *c, struct 
     work.progress = progress;
     work.tell = attempt != NULL ? NULL : &s->is_saturated;
     if (attempt != NULL) {
-        piece = attempt->piece;
-        known = &attempt->end;
+        piece.y = attempt->y;
+        piece.w = attempt->w;
+        known = attempt->end;
     } else {
         normal_q27_look(&s->normal, &c->normal, &piece, &s->is_saturated);
     }

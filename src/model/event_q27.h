@@ -15,8 +15,8 @@ struct event_q27_progress {
 /* What the fast path knows of a whole step when it finds that it does not serve: the normal motion, and where the pad
  * slips, its end as seen from its side. */
 struct event_q27_attempt {
-    struct normal_q27_piece piece;
-    struct slip_q27_end end;
+    int32_t y, w;                   /* at its end */
+    const struct slip_q27_end *end; /* NULL if the pad sticks */
 };
 
 /* Without an attempt the step saturates where it must; with one it is known to stay within the fine arithmetic. */

@@ -12,6 +12,7 @@ void slip_q27_take_part(const struct slip_q27_factors *whole, int32_t fraction, 
     part->friction = fixed_part(whole->friction, fraction);
     part->fade = fixed_part(whole->fade, fraction);
     part->drag = fixed_part((int32_t)fixed_floor(whole->drag, 27u), fraction) * (INT64_C(1) << 27) + (1 << 26);
+    part->damp = fixed_part(whole->damp - SLIP_Q27_UPPER_UNIT / 2, fraction) + SLIP_Q27_UPPER_UNIT / 2;
     if (has_floor) {
         part->floor = fixed_part(whole->floor, fraction);
         part->knee = ((int64_t)part->floor - part->friction) * (1 << 27);
@@ -21,10 +22,14 @@ void slip_q27_take_part(const struct slip_q27_factors *whole, int32_t fraction, 
 int32_t slip_q27_any_increment(const struct slip_q27_factors *f, const struct slip_q27_view *view, int32_t x, int32_t v,
                                int32_t p, bool has_floor, bool *is_saturated)
 {
+    struct fixed_sum sum;
+
     if (is_saturated != NULL) {
         return slip_q27_increment(f, view, x, v, p, has_floor, SLIP_Q27_WIDE, is_saturated);
     }
-    return slip_q27_increment(f, view, x, v, p, has_floor, SLIP_Q27_FINE, NULL);
+    sum = fixed_sum_of(f->spring, x);
+    slip_q27_push(f, view, &sum, v, p, has_floor);
+    return sum.high;
 }
 
 void slip_q27_any_go(const struct slip_q27_factors *f, const struct slip_q27_view *view,
@@ -32,10 +37,10 @@ void slip_q27_any_go(const struct slip_q27_factors *f, const struct slip_q27_vie
                      bool has_floor, bool *is_saturated)
 {
     if (is_saturated != NULL) {
-        slip_q27_go(f, view, rest, piece, end, has_floor, SLIP_Q27_WIDE, is_saturated);
+        slip_q27_go_wide(f, view, rest, piece, end, has_floor, is_saturated);
     } else if (has_floor) {
-        slip_q27_go(f, view, rest, piece, end, true, SLIP_Q27_FINE, NULL);
+        slip_q27_go_fine(f, view, rest, piece, end, true);
     } else {
-        slip_q27_go(f, view, rest, piece, end, false, SLIP_Q27_FINE, NULL);
+        slip_q27_go_fine(f, view, rest, piece, end, false);
     }
 }

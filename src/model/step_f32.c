@@ -83,13 +83,12 @@ static BASE_NOINLINE void advance_in_pieces(struct step_f32 *s, const struct ste
 
 /* --- The usual step: whole, without an event ------------------------------------------------------------------------ */
 
-static BASE_NOINLINE void find_event(struct step_f32 *s, const struct step_f32_coeffs *c,
-                                     const struct normal_f32_piece *piece, const struct slip_f32_end *end,
-                                     struct plant_output *output)
+/* The step was tried as a whole, up to y, w and for a slip up to end, and may hold an event. */
+static BASE_NOINLINE void find_event(struct step_f32 *s, const struct step_f32_coeffs *c, float y, float w,
+                                     const struct slip_f32_end *end, struct plant_output *output)
 {
-    struct event_f32_attempt attempt = {*piece, end};
+    const struct event_f32_attempt attempt = {y, w, end};
 
-    attempt.piece.dy = piece->y - s->normal.y;
     advance_in_pieces(s, c, &attempt, output);
 }
 
@@ -129,10 +128,9 @@ BASE_INLINE void slip_whole(struct step_f32 *s, const struct step_f32_coeffs *c,
 
     slip_f32_go(&c->whole, s->disc, mode, s->x, s->v, piece, &end, has_floor);
     if (BASE_UNLIKELY(may_cross(s->disc, s->v, &end, mode))) {
-        const struct normal_f32_piece tried = *piece;
         const struct slip_f32_end reached = end;
 
-        find_event(s, c, &tried, &reached, output);
+        find_event(s, c, piece->y, piece->w, &reached, output);
         return;
     }
     move_x(s, end.dx);
@@ -152,9 +150,7 @@ BASE_INLINE void stick_whole(struct step_f32 *s, const struct step_f32_coeffs *c
     const float p = is_pressed ? piece->y : normal_f32_force(&s->normal, piece->y);
 
     if (BASE_UNLIKELY(!(fmath_abs(need) <= c->whole.friction * p))) {
-        const struct normal_f32_piece tried = *piece;
-
-        find_event(s, c, &tried, NULL, output);
+        find_event(s, c, piece->y, piece->w, NULL, output);
         return;
     }
     move_x(s, dx);
