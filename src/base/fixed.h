@@ -48,6 +48,12 @@ static inline int32_t fixed_part(int32_t value, int32_t fraction)
     return (int32_t)fixed_round_up((int64_t)value * fraction, 30u);
 }
 
+/* The same up to four units less, by the upper word alone. */
+static inline int32_t fixed_part_near(int32_t value, int32_t fraction)
+{
+    return (int32_t)fixed_floor((int64_t)value * fraction, 32u) * 4;
+}
+
 /* The nearest value that fits 32 bits, symmetric: never INT32_MIN. */
 static inline int32_t fixed_saturate(int64_t value)
 {

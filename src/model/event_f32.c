@@ -90,22 +90,22 @@ static const struct slip_f32_factors *take_part(const struct work *work, float p
     return part;
 }
 
-/* From here to a place on the stretch, where y is as given. */
-static void slip(const struct work *work, const struct slip_f32_factors *f, float place, float y,
-                 struct slip_f32_end *end)
+/* From here to the end of the stretch. */
+static void slip(const struct work *work, const struct slip_f32_factors *f, struct slip_f32_end *end)
 {
     const struct step_f32 *s = work->s;
     const struct stretch *stretch = &work->stretch;
-    const float middle = force_of(work, normal_f32_arc_y(&stretch->arc, 0.5f * (stretch->at + place)));
+    const float middle = force_of(work, normal_f32_arc_y(&stretch->arc, 0.5f * (stretch->at + 1.0f)));
     const struct normal_f32_piece piece = {
-        .p1 = force_of(work, stretch->y), .p2 = middle, .p3 = middle, .p4 = force_of(work, y)};
+        .p1 = force_of(work, stretch->y), .p2 = middle, .p3 = middle, .p4 = force_of(work, stretch->y_end)};
 
     slip_f32_go(f, s->disc, s->mode, s->x, s->v, &piece, end, work->c->has_floor);
 }
 
 /* Looks for vr = 0 in a slip piece that reaches to the end of the stretch, also for a dip below 0 and back. Returns its
- * place on the piece in (0, 1], 0 for "at the start", or NOT_HERE. */
-static float find_crossing(const struct work *work, const struct slip_f32_factors *f, const struct slip_f32_end *end)
+ * place on the piece in (0, 1], 0 for "at the start", or NOT_HERE; *last is then the increment at the end. */
+static float find_crossing(const struct work *work, const struct slip_f32_factors *f, const struct slip_f32_end *end,
+                           float *last)
 {
     const struct step_f32 *s = work->s;
     const float f0 = signed_by(s->mode, s->disc - s->v);
@@ -113,16 +113,15 @@ static float find_crossing(const struct work *work, const struct slip_f32_factor
     const float d0 = -signed_by(s->mode, end->first);
     struct hermite_f32 vr;
     float upper = 1.0f;
-    float d1;
 
     if (stays_clear(f0, d0, f1)) {
         return NOT_HERE;
     }
-    d1 = -signed_by(s->mode, slip_f32_increment(f, slip_f32_drive(f, s->disc, s->mode), s->mode, s->x + end->dx, end->v,
-                                                force_of(work, work->stretch.y_end), work->c->has_floor));
-    vr = hermite_f32_make(f0, d0, f1, d1);
+    *last = slip_f32_increment(f, slip_f32_drive(f, s->disc, s->mode), s->mode, s->x + end->dx, end->v,
+                               force_of(work, work->stretch.y_end), work->c->has_floor);
+    vr = hermite_f32_make(f0, d0, f1, -signed_by(s->mode, *last));
     if (f1 >= 0.0f) {
-        if (d1 <= 0.0f) {
+        if (signed_by(s->mode, *last) >= 0.0f) {
             return NOT_HERE;
         }
         upper = hermite_f32_minimum(&vr);
@@ -136,6 +135,18 @@ static float find_crossing(const struct work *work, const struct slip_f32_factor
     return hermite_f32_root(&vr, upper);
 }
 
+/* Change of x up to where the pad meets the disc, at a place of the piece. v is the cubic on which that place was found, so
+ * its mean up to there is exactly the mean of its ends less a twelfth of what its slope changes by. */
+static float dx_at_crossing(const struct step_f32 *s, const struct slip_f32_factors *f, const struct slip_f32_end *end,
+                            float last, float place)
+{
+    const float rise = end->v - s->v;
+    const float square = 0.5f * rise - (1.0f / 6.0f) * (2.0f * end->first + last);
+    const float cube = 0.25f * (end->first + last) - 0.5f * rise;
+
+    return f->travel * place * (0.5f * (s->v + s->disc) - place * place * (square + place * cube));
+}
+
 /* Slips on to the end of the stretch or to vr = 0. known is the end of a piece that is a whole step, NULL if it has not
  * been computed. */
 static void slip_piece(struct work *work, const struct slip_f32_end *known)
@@ -144,14 +155,15 @@ static void slip_piece(struct work *work, const struct slip_f32_end *known)
     struct slip_f32_factors part;
     const struct slip_f32_factors *factors = take_part(work, 1.0f, &part);
     struct slip_f32_end end;
+    float last;
     float place;
 
     if (known != NULL) {
         end = *known;
     } else {
-        slip(work, factors, 1.0f, work->stretch.y_end, &end);
+        slip(work, factors, &end);
     }
-    place = find_crossing(work, factors, &end);
+    place = find_crossing(work, factors, &end, &last);
     if (place >= 0.0f && work->progress->events == PLANT_EVENTS_MAX) {
         work->progress->is_capped = true;
         place = NOT_HERE;
@@ -163,13 +175,11 @@ static void slip_piece(struct work *work, const struct slip_f32_end *known)
         return;
     }
     work->progress->events++;
-    place = work->stretch.at + place * (1.0f - work->stretch.at);
-    if (place > work->stretch.at) {
-        const float y = normal_f32_arc_y(&work->stretch.arc, place);
+    if (place > 0.0f) {
+        const float meeting = work->stretch.at + place * (1.0f - work->stretch.at);
 
-        slip(work, take_part(work, place, &part), place, y, &end);
-        move_to(work, place, y);
-        move_x(s, end.dx);
+        move_x(s, dx_at_crossing(s, factors, &end, last, place));
+        move_to(work, meeting, normal_f32_arc_y(&work->stretch.arc, meeting));
     }
     s->v = s->disc;
     s->mode = regime_at_rest(s, work->c, force_of(work, work->stretch.y), 0.0f);
@@ -297,8 +307,8 @@ void event_f32_step(struct step_f32 *s, const struct step_f32_coeffs *c, struct 
     if (attempt != NULL) {
         piece.y = attempt->y;
         piece.w = attempt->w;
-        piece.dy = attempt->y - s->normal.y;
-        piece.dw = attempt->w - s->normal.w;
+        piece.dy = attempt->dy;
+        piece.dw = attempt->dw;
         known = attempt->end;
     } else {
         normal_f32_look(&s->normal, &c->normal, c->normal.step, true, &piece);

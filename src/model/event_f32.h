@@ -15,7 +15,7 @@ struct event_f32_progress {
 
 /* A step that was tried as a whole, from the present state, and that may hold an event. */
 struct event_f32_attempt {
-    float y, w;                     /* at its end */
+    float y, w, dy, dw;             /* at its end, and their changes */
     const struct slip_f32_end *end; /* NULL if the pad sticks */
 };
 

@@ -1,5 +1,5 @@
 /* The cubic of hermite_f32.h in integers. Only its roots and its sign are wanted, so its values may have any unit: make
- * shifts all four coefficients by the same number of bits until the largest takes 28. Places are in Q30. [ANY, pure] */
+ * shifts all four arguments by the same number of bits until the largest takes 24. Places are in Q30. [ANY, pure] */
 #ifndef MODEL_HERMITE_Q27_H
 #define MODEL_HERMITE_Q27_H
 
@@ -13,8 +13,9 @@ struct hermite_q27 {
     int32_t value0, slope0, square, cube; /* f = value0 + t (slope0 + t (square + t cube)), each within 2^28 */
 };
 
-/* The arguments share one unit and lie within 2^58. */
-struct hermite_q27 hermite_q27_make(int64_t value0, int64_t slope0, int64_t value1, int64_t slope1);
+/* The arguments share one unit and are any words; or lie within 2^62. */
+struct hermite_q27 hermite_q27_make(int32_t value0, int32_t slope0, int32_t value1, int32_t slope1);
+struct hermite_q27 hermite_q27_make_wide(int64_t value0, int64_t slope0, int64_t value1, int64_t slope1);
 
 /* First root in (0, upper], for f(0) > 0 >= f(upper): secant start, two safeguarded Newton passes. */
 int32_t hermite_q27_root(const struct hermite_q27 *f, int32_t upper);

@@ -273,9 +273,9 @@ static int32_t within_bend(int64_t value)
 void normal_q27_arc_make(struct normal_q27_arc *arc, const struct normal_q27 *normal,
                          const struct normal_q27_coeffs *coeffs, int32_t fraction, const struct normal_q27_piece *piece)
 {
-    const int32_t t = fixed_part(coeffs->step, fraction);
-    const int32_t slope0 = (int32_t)fixed_round_up((int64_t)t * normal->w, 32u);
-    const int32_t slope1 = (int32_t)fixed_round_up((int64_t)t * piece->w, 32u);
+    const int32_t t = fixed_part_near(coeffs->step, fraction);
+    const int32_t slope0 = fixed_sum_of(t, normal->w).high;
+    const int32_t slope1 = fixed_sum_of(t, piece->w).high;
     const int64_t rise = (int64_t)piece->y - normal->y;
 
     arc->y = normal->y;

@@ -98,14 +98,15 @@ void normal_q27_arc_make(struct normal_q27_arc *arc, const struct normal_q27 *no
 /* Displacement on the way, and its change by t. */
 static inline int32_t normal_q27_arc_y(const struct normal_q27_arc *arc, int32_t t)
 {
-    const int32_t bend = arc->square + fixed_part(arc->cube, t);
+    const int32_t bend = arc->square + fixed_part_near(arc->cube, t);
 
-    return fixed_saturate((int64_t)arc->y + fixed_part(arc->slope + fixed_part(bend, t), t));
+    return fixed_saturate((int64_t)arc->y + fixed_part_near(arc->slope + fixed_part_near(bend, t), t));
 }
 
 static inline int32_t normal_q27_arc_slope(const struct normal_q27_arc *arc, int32_t t)
 {
-    return fixed_saturate((int64_t)arc->slope + fixed_part(2 * arc->square + 3 * fixed_part(arc->cube, t), t));
+    return fixed_saturate((int64_t)arc->slope +
+                          fixed_part_near(2 * arc->square + 3 * fixed_part_near(arc->cube, t), t));
 }
 
 /* Moves to the end of a piece. */

@@ -1,18 +1,21 @@
 /* Slip over parts of a step, where either arithmetic may have to serve. */
 #include "model/slip_q27.h"
 
-void slip_q27_take_part(const struct slip_q27_factors *whole, int32_t fraction, bool has_floor,
+void slip_q27_take_part(const struct slip_q27_factors *whole, int32_t fraction, bool has_floor, bool is_wide,
                         struct slip_q27_factors *part)
 {
     part->sixth = whole->sixth;
-    part->travel = fixed_part(whole->travel, fraction);
-    part->spring = fixed_part(whole->spring, fraction);
-    part->stretch = (int32_t)fixed_round_up((int64_t)part->spring * part->travel, 32u);
-    part->half_stretch = (int32_t)fixed_round_up((int64_t)part->spring * part->travel, 33u);
-    part->friction = fixed_part(whole->friction, fraction);
-    part->fade = fixed_part(whole->fade, fraction);
-    part->drag = fixed_part((int32_t)fixed_floor(whole->drag, 27u), fraction) * (INT64_C(1) << 27) + (1 << 26);
-    part->damp = fixed_part(whole->damp - SLIP_Q27_UPPER_UNIT / 2, fraction) + SLIP_Q27_UPPER_UNIT / 2;
+    part->travel = fixed_part_near(whole->travel, fraction);
+    part->spring = fixed_part_near(whole->spring, fraction);
+    part->half_stretch = fixed_part_near(fixed_part_near(whole->half_stretch, fraction), fraction);
+    part->stretch = 2 * part->half_stretch;
+    part->friction = fixed_part_near(whole->friction, fraction);
+    part->fade = fixed_part_near(whole->fade, fraction);
+    if (is_wide) {
+        part->drag = fixed_part((int32_t)fixed_floor(whole->drag, 27u), fraction) * (INT64_C(1) << 27) + (1 << 26);
+    } else {
+        part->damp = fixed_part_near(whole->damp - SLIP_Q27_UPPER_UNIT / 2, fraction) + SLIP_Q27_UPPER_UNIT / 2;
+    }
     if (has_floor) {
         part->floor = fixed_part(whole->floor, fraction);
         part->knee = ((int64_t)part->floor - part->friction) * (1 << 27);
@@ -28,7 +31,7 @@ int32_t slip_q27_any_increment(const struct slip_q27_factors *f, const struct sl
         return slip_q27_increment(f, view, x, v, p, has_floor, SLIP_Q27_WIDE, is_saturated);
     }
     sum = fixed_sum_of(f->spring, x);
-    slip_q27_push(f, view, &sum, v, p, has_floor);
+    slip_q27_push(f, view, &sum, v, p, slip_q27_drag(f, p), has_floor);
     return sum.high;
 }
 
@@ -39,8 +42,8 @@ void slip_q27_any_go(const struct slip_q27_factors *f, const struct slip_q27_vie
     if (is_saturated != NULL) {
         slip_q27_go_wide(f, view, rest, piece, end, has_floor, is_saturated);
     } else if (has_floor) {
-        slip_q27_go_fine(f, view, rest, piece, end, true);
+        slip_q27_go_fine(f, view, rest, piece, end, true, true);
     } else {
-        slip_q27_go_fine(f, view, rest, piece, end, false);
+        slip_q27_go_fine(f, view, rest, piece, end, true, false);
     }
 }

@@ -142,9 +142,15 @@ BASE_INLINE void slip_q27_go_wide(const struct slip_q27_factors *f, const struct
 
 /* --- Fine: the upper word of a sum is the increment, rounded down --- */
 
-/* Adds (drive + fade v) p + drag v to a sum that holds the rest of an increment. */
+/* Adds what friction and damping do to the rest of an increment: drive p + (drag - h eps p) v. drag and push = drive p are those
+ * of the force p; on the floor of mu both are others. */
+BASE_INLINE int32_t slip_q27_drag(const struct slip_q27_factors *f, int32_t p)
+{
+    return f->damp + fixed_sum_of(f->fade, p).high * SLIP_Q27_UPPER_UNIT;
+}
+
 BASE_INLINE void slip_q27_push(const struct slip_q27_factors *f, const struct slip_q27_view *view,
-                               struct fixed_sum *sum, int32_t v, int32_t p, bool has_floor)
+                               struct fixed_sum *sum, int32_t v, int32_t p, int32_t drag, bool has_floor)
 {
     if (has_floor && -(f->fade * ((int64_t)view->disc - v)) < f->knee) {
         fixed_sum_add(sum, f->floor, p);
@@ -152,40 +158,41 @@ BASE_INLINE void slip_q27_push(const struct slip_q27_factors *f, const struct sl
         return;
     }
     fixed_sum_add(sum, view->drive, p);
-    fixed_sum_add(sum, f->damp + fixed_sum_of(f->fade, p).high * SLIP_Q27_UPPER_UNIT, v);
+    fixed_sum_add(sum, drag, v);
 }
 
 BASE_INLINE void slip_q27_go_fine(const struct slip_q27_factors *f, const struct slip_q27_view *view,
                                   const struct slip_q27_rest *rest, const struct normal_q27_piece *piece,
-                                  struct slip_q27_end *end, bool has_floor)
+                                  struct slip_q27_end *end, bool is_exact, bool has_floor)
 {
     const int32_t v1 = view->v;
     struct fixed_sum pull = fixed_sum_of(f->spring, view->x);
     struct fixed_sum sum = pull;
     uint32_t below;
-    int32_t a1, a2, a3, v2, v3, v4, mean;
+    int32_t a1, a2, a3, v2, v3, v4, mean, drag;
 
-    slip_q27_push(f, view, &sum, v1, piece->p1, has_floor);
+    slip_q27_push(f, view, &sum, v1, piece->p1, slip_q27_drag(f, piece->p1), has_floor);
     a1 = sum.high;
     below = sum.low >> SLIP_Q27_OUTER;
     v2 = v1 + fixed_half_up(a1);
 
+    drag = slip_q27_drag(f, piece->p2);
     sum = pull;
     fixed_sum_add(&sum, f->half_stretch, v1);
-    slip_q27_push(f, view, &sum, v2, piece->p2, has_floor);
+    slip_q27_push(f, view, &sum, v2, piece->p2, drag, has_floor);
     a2 = sum.high;
     below += sum.low >> SLIP_Q27_INNER;
     v3 = v1 + fixed_half_up(a2);
 
     sum = pull;
     fixed_sum_add(&sum, f->half_stretch, v2);
-    slip_q27_push(f, view, &sum, v3, piece->p3, has_floor);
+    slip_q27_push(f, view, &sum, v3, piece->p3, is_exact ? drag : slip_q27_drag(f, piece->p3), has_floor);
     a3 = sum.high;
     below += sum.low >> SLIP_Q27_INNER;
     v4 = v1 + a3;
 
     fixed_sum_add(&pull, f->stretch, v3);
-    slip_q27_push(f, view, &pull, v4, piece->p4, has_floor);
+    slip_q27_push(f, view, &pull, v4, piece->p4, slip_q27_drag(f, piece->p4), has_floor);
     below += pull.low >> SLIP_Q27_OUTER;
 
     end->rest.v = rest->v;
@@ -200,7 +207,7 @@ BASE_INLINE void slip_q27_go_fine(const struct slip_q27_factors *f, const struct
 /* --- Parts of a step ------------------------------------------------------------------------------------------------ */
 
 /* The factors of a part of the step, a fraction in Q30. Those of the floor are left alone where there is none. */
-void slip_q27_take_part(const struct slip_q27_factors *whole, int32_t fraction, bool has_floor,
+void slip_q27_take_part(const struct slip_q27_factors *whole, int32_t fraction, bool has_floor, bool is_wide,
                         struct slip_q27_factors *part);
 
 /* The two above in either arithmetic, with factors in its format: wide with is_saturated given, fine with NULL. */

@@ -62,7 +62,7 @@ static BASE_NOINLINE void advance_in_pieces(struct step_f32 *s, const struct ste
                                             const struct event_f32_attempt *attempt, struct plant_output *output)
 {
     struct event_f32_progress progress = {0.0f, 0.0f, 0u, 0u, false, false};
-    bool is_gap_held;
+    bool is_gap_held = false;
 
     if (c->is_naive) {
         naive_f32_step(s, c);
@@ -71,7 +71,12 @@ static BASE_NOINLINE void advance_in_pieces(struct step_f32 *s, const struct ste
     } else {
         event_f32_step(s, c, &progress, attempt);
     }
-    is_gap_held = normal_f32_close_step(&s->normal, &c->normal);
+    if (attempt == NULL) {
+        is_gap_held = normal_f32_close_step(&s->normal, &c->normal);
+    } else if (c->normal.has_phase) {
+        s->normal.y = attempt->y;
+        s->normal.w = attempt->w;
+    }
     report_state(s, c, output);
     output->stick = to_share(progress.stick);
     output->slip_minus = to_share(progress.slip_minus);
@@ -83,13 +88,24 @@ static BASE_NOINLINE void advance_in_pieces(struct step_f32 *s, const struct ste
 
 /* --- The usual step: whole, without an event ------------------------------------------------------------------------ */
 
-/* The step was tried as a whole, up to y, w and for a slip up to end, and may hold an event. */
-static BASE_NOINLINE void find_event(struct step_f32 *s, const struct step_f32_coeffs *c, float y, float w,
-                                     const struct slip_f32_end *end, struct plant_output *output)
+/* The step was tried as a whole, and for a slip up to end, and may hold an event. */
+static BASE_NOINLINE void find_event(struct step_f32 *s, const struct step_f32_coeffs *c, float y, float w, float dy,
+                                     float dw, const struct slip_f32_end *end, struct plant_output *output)
 {
-    const struct event_f32_attempt attempt = {y, w, end};
+    const struct event_f32_attempt attempt = {y, w, dy, dw, end};
 
     advance_in_pieces(s, c, &attempt, output);
+}
+
+BASE_INLINE void find_event_in(struct step_f32 *s, const struct step_f32_coeffs *c,
+                               const struct normal_f32_piece *piece, bool has_phase, const struct slip_f32_end *end,
+                               struct plant_output *output)
+{
+    if (has_phase) {
+        find_event(s, c, piece->y, piece->w, piece->y - s->normal.y, piece->w - s->normal.w, end, output);
+    } else {
+        find_event(s, c, piece->y, piece->w, piece->dy, piece->dw, end, output);
+    }
 }
 
 /* Moves on to the end of the step and reports it. */
@@ -130,7 +146,7 @@ BASE_INLINE void slip_whole(struct step_f32 *s, const struct step_f32_coeffs *c,
     if (BASE_UNLIKELY(may_cross(s->disc, s->v, &end, mode))) {
         const struct slip_f32_end reached = end;
 
-        find_event(s, c, piece->y, piece->w, &reached, output);
+        find_event_in(s, c, piece, has_phase, &reached, output);
         return;
     }
     move_x(s, end.dx);
@@ -150,7 +166,7 @@ BASE_INLINE void stick_whole(struct step_f32 *s, const struct step_f32_coeffs *c
     const float p = is_pressed ? piece->y : normal_f32_force(&s->normal, piece->y);
 
     if (BASE_UNLIKELY(!(fmath_abs(need) <= c->whole.friction * p))) {
-        find_event(s, c, piece->y, piece->w, NULL, output);
+        find_event_in(s, c, piece, has_phase, NULL, output);
         return;
     }
     move_x(s, dx);

@@ -124,14 +124,16 @@ static BASE_NOINLINE void advance_in_pieces(struct step_q27 *s, const struct ste
                                             const struct event_q27_attempt *attempt, struct plant_output *output)
 {
     struct event_q27_progress progress = {0u, 0u, 0u, 0u, false, false};
-    bool is_gap_held;
+    bool is_gap_held = false;
 
     if (c->is_naive) {
         naive_q27_step(s, c, &progress);
     } else {
         event_q27_step(s, c, &progress, attempt);
     }
-    is_gap_held = normal_q27_close_step(&s->normal, &c->normal, &s->is_saturated);
+    if (attempt == NULL) {
+        is_gap_held = normal_q27_close_step(&s->normal, &c->normal, &s->is_saturated);
+    }
     report(s, s->mode, output);
     output->stick = progress.stick;
     output->slip_minus = progress.slip_minus;
@@ -156,7 +158,7 @@ static BASE_NOINLINE void find_event(struct step_q27 *s, const struct step_q27_c
 /* An event may lie in the step, where this test does not exclude it, which is that of event_q27.c: a curve that stays above
  * its first tangent stays above 0 when the tangent does. */
 BASE_INLINE void slip_whole(struct step_q27 *s, const struct step_q27_coeffs *c, const struct normal_q27_piece *piece,
-                            bool has_floor, bool is_pressed, struct plant_output *output)
+                            bool is_exact, bool has_floor, bool is_pressed, struct plant_output *output)
 {
     const bool is_turned = s->mode < 0;
     struct slip_q27_view view = {s->x, s->v, s->disc, 0};
@@ -166,7 +168,7 @@ BASE_INLINE void slip_whole(struct step_q27 *s, const struct step_q27_coeffs *c,
         view = (struct slip_q27_view){-s->x, -s->v, -s->disc, 0};
     }
     view.drive = slip_q27_drive(&c->fine, view.disc, NULL);
-    slip_q27_go_fine(&c->fine, &view, &s->rest, piece, &end, has_floor);
+    slip_q27_go_fine(&c->fine, &view, &s->rest, piece, &end, is_exact, has_floor);
     if (BASE_UNLIKELY(end.v > view.disc || (view.disc - view.v <= end.first && view.v < view.disc))) {
         const struct slip_q27_end reached = end;
 
@@ -226,7 +228,7 @@ BASE_INLINE void advance_tame(struct step_q27 *s, const struct step_q27_coeffs *
     }
     normal_q27_look_stages(&s->normal, &c->normal, is_exact, &piece, NULL);
     normal_q27_press(&s->normal, &piece);
-    slip_whole(s, c, &piece, has_floor, false, output);
+    slip_whole(s, c, &piece, is_exact, has_floor, false, output);
 }
 
 static BASE_NOINLINE void advance_tame_other(struct step_q27 *s, const struct step_q27_coeffs *c,
@@ -256,7 +258,7 @@ BASE_INLINE void advance_plain(struct step_q27 *s, const struct step_q27_coeffs 
     } else {
         normal_q27_look_stages(&s->normal, &c->normal, true, &piece, NULL);
         if (BASE_LIKELY((piece.p1 | piece.p2 | piece.p4) >= 0)) {
-            slip_whole(s, c, &piece, false, true, output);
+            slip_whole(s, c, &piece, true, false, true, output);
             return;
         }
     }
