@@ -25,13 +25,16 @@ void slip_q27_take_part(const struct slip_q27_factors *whole, int32_t fraction, 
 int32_t slip_q27_any_increment(const struct slip_q27_factors *f, const struct slip_q27_view *view, int32_t x, int32_t v,
                                int32_t p, bool has_floor, bool *is_saturated)
 {
+    struct slip_q27_law law;
     struct fixed_sum sum;
 
     if (is_saturated != NULL) {
         return slip_q27_increment(f, view, x, v, p, has_floor, SLIP_Q27_WIDE, is_saturated);
     }
+    law = slip_q27_law(f, view, v, p, has_floor);
     sum = fixed_sum_of(f->spring, x);
-    slip_q27_push(f, view, &sum, v, p, slip_q27_drag(f, p), has_floor);
+    fixed_sum_add(&sum, law.drive, p);
+    fixed_sum_add(&sum, law.drag, v);
     return sum.high;
 }
 

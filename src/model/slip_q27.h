@@ -142,57 +142,70 @@ BASE_INLINE void slip_q27_go_wide(const struct slip_q27_factors *f, const struct
 
 /* --- Fine: the upper word of a sum is the increment, rounded down --- */
 
-/* Adds what friction and damping do to the rest of an increment: drive p + (drag - h eps p) v. drag and push = drive p are those
- * of the force p; on the floor of mu both are others. */
-BASE_INLINE int32_t slip_q27_drag(const struct slip_q27_factors *f, int32_t p)
-{
-    return f->damp + fixed_sum_of(f->fade, p).high * SLIP_Q27_UPPER_UNIT;
-}
+/* What friction and damping do at a stage: the increment is drive p + drag v + what the spring does. On the floor of mu both are
+ * others. */
+struct slip_q27_law {
+    int32_t drive, drag;
+};
 
-BASE_INLINE void slip_q27_push(const struct slip_q27_factors *f, const struct slip_q27_view *view,
-                               struct fixed_sum *sum, int32_t v, int32_t p, int32_t drag, bool has_floor)
+BASE_INLINE struct slip_q27_law slip_q27_law(const struct slip_q27_factors *f, const struct slip_q27_view *view,
+                                             int32_t v, int32_t p, bool has_floor)
 {
     if (has_floor && -(f->fade * ((int64_t)view->disc - v)) < f->knee) {
-        fixed_sum_add(sum, f->floor, p);
-        fixed_sum_add(sum, f->damp, v);
-        return;
+        return (struct slip_q27_law){f->floor, f->damp};
     }
-    fixed_sum_add(sum, view->drive, p);
-    fixed_sum_add(sum, drag, v);
+    return (struct slip_q27_law){view->drive, f->damp + fixed_sum_of(f->fade, p).high * SLIP_Q27_UPPER_UNIT};
 }
 
+/* RK4 as its stages are linear: with v2 = v1 + a1/2, v3 = v1 + a2/2, v4 = v1 + a3 and the places of x that belong to them,
+ *
+ *   a1 = spring x + drive p1 + drag v1
+ *   a2 = spring x + drive p2 + (drag + half) v1 + drag/2 a1                  half: half_stretch
+ *   a3 = spring x + drive p3 + (drag + half) v1 + drag/2 a2 + half/2 a1
+ *   a4 = spring x + drive p4 + (drag + stretch) v1 + drag a3 + half a2
+ *
+ * with the drag of each stage. Where p2 = p3, the two share all but their last terms. */
 BASE_INLINE void slip_q27_go_fine(const struct slip_q27_factors *f, const struct slip_q27_view *view,
                                   const struct slip_q27_rest *rest, const struct normal_q27_piece *piece,
                                   struct slip_q27_end *end, bool is_exact, bool has_floor)
 {
     const int32_t v1 = view->v;
+    struct slip_q27_law law = slip_q27_law(f, view, v1, piece->p1, has_floor);
     struct fixed_sum pull = fixed_sum_of(f->spring, view->x);
     struct fixed_sum sum = pull;
+    struct fixed_sum middle = pull;
     uint32_t below;
-    int32_t a1, a2, a3, v2, v3, v4, mean, drag;
+    int32_t a1, a2, a3, mean;
 
-    slip_q27_push(f, view, &sum, v1, piece->p1, slip_q27_drag(f, piece->p1), has_floor);
+    fixed_sum_add(&sum, law.drive, piece->p1);
+    fixed_sum_add(&sum, law.drag, v1);
     a1 = sum.high;
     below = sum.low >> SLIP_Q27_OUTER;
-    v2 = v1 + fixed_half_up(a1);
 
-    drag = slip_q27_drag(f, piece->p2);
-    sum = pull;
-    fixed_sum_add(&sum, f->half_stretch, v1);
-    slip_q27_push(f, view, &sum, v2, piece->p2, drag, has_floor);
+    law = slip_q27_law(f, view, v1 + fixed_half_up(a1), piece->p2, has_floor);
+    fixed_sum_add(&middle, law.drive, piece->p2);
+    fixed_sum_add(&middle, law.drag + f->half_stretch, v1);
+    sum = middle;
+    fixed_sum_add(&sum, fixed_floor_word(law.drag, 1u), a1);
     a2 = sum.high;
     below += sum.low >> SLIP_Q27_INNER;
-    v3 = v1 + fixed_half_up(a2);
 
-    sum = pull;
-    fixed_sum_add(&sum, f->half_stretch, v2);
-    slip_q27_push(f, view, &sum, v3, piece->p3, is_exact ? drag : slip_q27_drag(f, piece->p3), has_floor);
-    a3 = sum.high;
-    below += sum.low >> SLIP_Q27_INNER;
-    v4 = v1 + a3;
+    if (!is_exact || has_floor) {
+        law = slip_q27_law(f, view, v1 + fixed_half_up(a2), piece->p3, has_floor);
+        middle = pull;
+        fixed_sum_add(&middle, law.drive, piece->p3);
+        fixed_sum_add(&middle, law.drag + f->half_stretch, v1);
+    }
+    fixed_sum_add(&middle, fixed_floor_word(law.drag, 1u), a2);
+    fixed_sum_add(&middle, fixed_floor_word(f->half_stretch, 1u), a1);
+    a3 = middle.high;
+    below += middle.low >> SLIP_Q27_INNER;
 
-    fixed_sum_add(&pull, f->stretch, v3);
-    slip_q27_push(f, view, &pull, v4, piece->p4, slip_q27_drag(f, piece->p4), has_floor);
+    law = slip_q27_law(f, view, v1 + a3, piece->p4, has_floor);
+    fixed_sum_add(&pull, law.drive, piece->p4);
+    fixed_sum_add(&pull, law.drag + f->stretch, v1);
+    fixed_sum_add(&pull, law.drag, a3);
+    fixed_sum_add(&pull, f->half_stretch, a2);
     below += pull.low >> SLIP_Q27_OUTER;
 
     end->rest.v = rest->v;

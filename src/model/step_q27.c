@@ -69,9 +69,9 @@ void step_q27_configure(struct step_q27_coeffs *coeffs, const struct params *par
     configure_factors(&coeffs->fine, scale, SLIP_Q27_FINE);
     coeffs->drag = fixed_saturate(-times_step(scale, scale->damping, SLIP_Q27_WIDE));
     coeffs->has_floor = scale->has_floor;
-    coeffs->is_plain = coeffs->normal.has_phase && !scale->has_floor;
     coeffs->is_naive = (int)params->tangential_method == METHOD_NAIVE;
     coeffs->reach_max = coeffs->is_naive ? 0 : fine_reach(scale);
+    coeffs->reach_plain = coeffs->normal.has_phase && !scale->has_floor ? coeffs->reach_max : 0;
     coeffs->stiffness = fixed_from_float(scale->stiffness, PLANT_FRACTION_BITS + (int)scale->length_shift);
     coeffs->friction = fixed_from_float(scale->friction, PLANT_FRACTION_BITS);
     coeffs->slope = fixed_from_float(scale->friction_slope, PLANT_FRACTION_BITS);
@@ -265,12 +265,22 @@ BASE_INLINE void advance_plain(struct step_q27 *s, const struct step_q27_coeffs 
     advance_tame_other(s, c, output);
 }
 
-/* |x| and |v| below 2, and a normal motion that stays within the reach of the fine arithmetic. */
-BASE_INLINE bool is_tame(const struct step_q27 *s, const struct step_q27_coeffs *c)
+/* |x| and |v| below 2, and a normal motion that stays within what the fine arithmetic serves. */
+BASE_INLINE bool is_tame(const struct step_q27 *s, int32_t reach_max)
 {
     const uint32_t size = ((uint32_t)s->x + TAME_LIMIT) | ((uint32_t)s->v + TAME_LIMIT);
 
-    return s->normal.reach < c->reach_max && size < 2u * TAME_LIMIT;
+    return s->normal.reach < reach_max && size < 2u * TAME_LIMIT;
+}
+
+static BASE_NOINLINE void advance_other(struct step_q27 *s, const struct step_q27_coeffs *c,
+                                        struct plant_output *output)
+{
+    if (is_tame(s, c->reach_max)) {
+        advance_tame_other(s, c, output);
+    } else {
+        advance_in_pieces(s, c, NULL, output);
+    }
 }
 
 /* ------------------------------------------------------------------------------------------------------------------ */
@@ -294,12 +304,10 @@ void step_q27_advance(struct step_q27 *state, const struct step_q27_coeffs *coef
         take_input(state, coeffs, input.load, input.speed);
     }
     index = normal_q27_open_step(&state->normal, &coeffs->normal);
-    if (BASE_UNLIKELY(!is_tame(state, coeffs))) {
-        advance_in_pieces(state, coeffs, NULL, output);
-    } else if (BASE_LIKELY(coeffs->is_plain)) {
+    if (BASE_LIKELY(is_tame(state, coeffs->reach_plain))) {
         advance_plain(state, coeffs, index, output);
     } else {
-        advance_tame_other(state, coeffs, output);
+        advance_other(state, coeffs, output);
     }
 }
 

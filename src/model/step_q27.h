@@ -18,7 +18,7 @@ struct step_q27_coeffs {
     struct slip_q27_factors fine, wide; /* of a whole step */
     int32_t drag;                       /* -h C in the format of wide */
     int32_t reach_max;                  /* the fast path serves a normal motion within it; 0: no motion at all */
-    bool is_plain; /* undamped closed form of y and no floor, the paper's set: the fast path is made for it */
+    int32_t reach_plain; /* the same for undamped closed form of y and no floor, the paper's set, else 0 */
     bool has_floor;
     bool is_naive; /* RK4 on the raw sign, no stick: for comparison only */
     struct normal_q27_coeffs normal;
