@@ -6,6 +6,7 @@ BOARDS := $(filter-out template,$(notdir $(patsubst %/board.mk,%,$(wildcard boar
 ifeq ($(filter $(BOARD),$(BOARDS) template),)
 $(error there is no board '$(BOARD)'; the boards are: $(BOARDS))
 endif
+BOARDS_EMULATED := $(filter-out host,$(BOARDS))
 .DEFAULT_GOAL := all
 
 # As many jobs as processors, for the makes below too; -j on the command line has its way.
@@ -94,7 +95,7 @@ $(shell mkdir -p build && echo '$(BUILD_ID)' >build/build_id)
 endif
 
 # --- Rules ----------------------------------------------------------------------------------------------------------
-.PHONY: all run paper tool monitor console test golden oracle hil detector noise converge frames fuzz bench-link bench-link-on debug bits check size clean help setup setup-clang other-images host-image command
+.PHONY: bench bench-board all run paper tool monitor console test golden oracle hil detector noise converge frames fuzz bench-link bench-link-on debug bits check size clean help setup setup-clang other-images host-image command
 .DELETE_ON_ERROR:
 
 all: $(IMAGE) $(CONTROLLER) ## build the firmware and the controller of tests/hil for BOARD (default mps2-an386)
@@ -285,6 +286,14 @@ fuzz: $(FUZZER) $(REPLAY) build/fuzz/dictionary ## throw random bytes at console
 	    </dev/null >/dev/null 2>&1; code=$$?; tail -qn 1 fuzz-*.log; \
 	    [ $$code = 0 ] || ls -t crash-* timeout-* oom-* 2>/dev/null | sed 's,^,build/fuzz/,;s,$$, breaks something: tests/fuzz/README.md says what to do,'; \
 	    exit $$code; }
+
+bench: ## count instructions on every emulated board, compare, and prove the rates they can keep; results in build/bench
+	$(Q)COMMANDS="$$(for board in $(BOARDS_EMULATED); do $(MAKE) -s --no-print-directory BOARD=$$board bench-board >&2 && \
+	    $(MAKE) -s --no-print-directory BOARD=$$board command || exit; done)" && export COMMANDS && \
+	mkdir -p build/bench && tests/bench/target/target.py --out build/bench | tee build/bench/table.txt && \
+	! grep -q '^over\|^not ' build/bench/table.txt
+
+bench-board: $(IMAGE) $(BENCH)
 
 # What starts the firmware depends on LINK=.
 BENCH_SOCKET := $(OUT_BOARD)/bench.sock

@@ -196,18 +196,18 @@ static void measure(const struct subject *subject)
 static void watch(uint32_t ticks)
 {
     uint32_t last = hal_clock_now();
-    uint32_t quiet = UINT32_MAX;
+    uint32_t quiet = 0u;
 
     while (ticks > 0u) {
         const uint32_t now = hal_clock_now();
         const uint32_t passed = now - last;
 
         last = now;
-        if (passed > quiet + quiet / 2u) {
+        if (quiet != 0u && passed > 2u * quiet) {
             book(PART_ALL, passed - quiet);
             ticks--;
         } else {
-            quiet = passed < quiet ? passed : quiet;
+            quiet = passed;
         }
     }
 }
@@ -216,9 +216,11 @@ static void measure_interrupt(const char *arith, const char *name, uint32_t samp
 {
     struct executive *executive = subjects_executive("N0 10 alpha -0.02 normal exact tick 100", arith, sample_every);
     struct sample sample;
+    uintptr_t top;
 
     memset(tallies, 0, sizeof tallies);
     isr_init(executive);
+    top = paint();
     isr_follow();
     for (int i = 0; i < TICKS / TICKS_AT_ONCE; i++) {
         watch(TICKS_AT_ONCE);
@@ -226,7 +228,7 @@ static void measure_interrupt(const char *arith, const char *name, uint32_t samp
         }
     }
     hal_tick_stop();
-    write_memory(name, arith, "app_tick", 0u);
+    write_memory(name, arith, "app_tick", depth(top));
     write_tallies(name, arith);
 }
 

@@ -10,9 +10,9 @@
 /* Sticks and slips once a period, with two events; slips on. At 64 steps a period. */
 #define STICKSLIP "N0 10 alpha -0.02"
 #define SLIP "N0 1"
-#define EVENTS "N0 50 alpha -0.02 normal exact spp 32"
+#define EVENTS "spp 16 contact lift kt 0.25 k 0.25 y0 2.5 v0 0 x0 0.3"
 
-enum { PERIODS = 25, STEPS = PERIODS * 64, EVENTFUL = 4000 };
+enum { PERIODS = 25, STEPS = PERIODS * 64, EVENTFUL = 2000 };
 
 static struct sim_plan plan;
 static struct sim sim;
