@@ -6,7 +6,6 @@
 
 #define FINE_LIMIT (INT64_C(1) << 31) /* 1/2 in Q32 */
 #define TAME_LIMIT (1u << 28)         /* 2 in Q27 */
-#define FAULT_SPEED ((int32_t)SCALE_FAULT_SPEED << PLANT_FRACTION_BITS)
 
 /* h value 2^exponent, h exact to 38 bits. */
 static int64_t times_step(const struct scale *scale, float value, int exponent)
@@ -326,9 +325,4 @@ int32_t step_q27_friction(const struct step_q27 *state, const struct step_q27_co
         ratio = coeffs->floor;
     }
     return fixed_saturate(sign * fixed_shift_right((int64_t)fixed_saturate(ratio) * p, 27u));
-}
-
-bool step_q27_is_outside(const struct step_q27 *state)
-{
-    return state->is_saturated || fixed_abs(state->v) > (uint32_t)FAULT_SPEED;
 }

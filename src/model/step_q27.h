@@ -60,6 +60,9 @@ void step_q27_report(const struct step_q27 *state, struct plant_output *output);
 int32_t step_q27_friction(const struct step_q27 *state, const struct step_q27_coeffs *coeffs);
 
 /* The plant has left its domain: a state saturated, or is beyond what the model means. */
-bool step_q27_is_outside(const struct step_q27 *state);
+static inline bool step_q27_is_outside(const struct step_q27 *state)
+{
+    return state->is_saturated || fixed_abs(state->v) > (uint32_t)SCALE_FAULT_SPEED << PLANT_FRACTION_BITS;
+}
 
 #endif

@@ -206,6 +206,7 @@ static void watch(uint32_t ticks)
         if (quiet != 0u && passed > 2u * quiet) {
             book(PART_ALL, passed - quiet);
             ticks--;
+            last = hal_clock_now();
         } else {
             quiet = passed;
         }
