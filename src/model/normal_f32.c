@@ -187,15 +187,6 @@ void normal_f32_look(const struct normal_f32 *normal, const struct normal_f32_co
     }
 }
 
-BASE_NOINLINE uint32_t normal_f32_turn(struct normal_f32 *normal, uint32_t phase)
-{
-    const float cosine = normal->cosine;
-
-    normal->cosine = normal->sine;
-    normal->sine = -cosine;
-    return phase - SINE_GRID / 4u;
-}
-
 bool normal_f32_close_step(struct normal_f32 *normal, const struct normal_f32_coeffs *coeffs)
 {
     if (coeffs->has_phase) {

@@ -94,16 +94,17 @@ static inline float normal_f32_arc_y(const struct normal_f32_arc *arc, float t)
     return arc->y + t * (arc->slope + t * (arc->square + t * arc->cube));
 }
 
-/* Each full quarter turns the amplitudes instead of the phase, which costs no bit. Returns the phase that is left. */
-uint32_t normal_f32_turn(struct normal_f32 *normal, uint32_t phase);
-
-/* A step begins: the phase goes on to its end. Returns it. */
+/* A step begins: the phase goes on to its end. Each full quarter turns the amplitudes instead. Returns the phase. */
 BASE_INLINE uint32_t normal_f32_open_step(struct normal_f32 *normal, const struct normal_f32_coeffs *coeffs)
 {
     uint32_t phase = normal->phase + coeffs->phase_stride;
 
     if (BASE_UNLIKELY(phase >= SINE_GRID / 4u)) {
-        phase = normal_f32_turn(normal, phase);
+        const float cosine = normal->cosine;
+
+        phase -= SINE_GRID / 4u;
+        normal->cosine = normal->sine;
+        normal->sine = -cosine;
     }
     normal->phase = phase;
     return phase;

@@ -290,14 +290,6 @@ void normal_q27_change_contact(struct normal_q27 *normal)
     normal->is_lifted = normal->w < 0;
 }
 
-BASE_NOINLINE uint32_t normal_q27_turn(struct normal_q27_phase *phase, uint32_t index)
-{
-    phase->cosine = phase->sine;
-    phase->sine = phase->minus_cosine;
-    phase->minus_cosine = -phase->cosine;
-    return index - SINE_GRID / 4u;
-}
-
 bool normal_q27_close_step(struct normal_q27 *normal, const struct normal_q27_coeffs *coeffs, bool *is_saturated)
 {
     if (coeffs->has_phase) {

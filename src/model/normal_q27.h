@@ -128,18 +128,19 @@ static inline int32_t normal_q27_force(const struct normal_q27 *normal, int32_t 
 
 /* --- What the fast path of the step needs inline ------------------------------------------------------------------ */
 
-/* Each full quarter turns the amplitudes instead of the phase. Returns the phase that is left. */
-uint32_t normal_q27_turn(struct normal_q27_phase *phase, uint32_t index);
-
-/* A step begins: the phase goes on to its end. Returns it. */
+/* A step begins: the phase goes on to its end. Each full quarter turns the amplitudes instead. Returns the phase. */
 BASE_INLINE uint32_t normal_q27_open_step(struct normal_q27 *normal, const struct normal_q27_coeffs *coeffs)
 {
-    uint32_t index = normal->phase.index + coeffs->phase_stride;
+    struct normal_q27_phase *phase = &normal->phase;
+    uint32_t index = phase->index + coeffs->phase_stride;
 
     if (BASE_UNLIKELY(index >= SINE_GRID / 4u)) {
-        index = normal_q27_turn(&normal->phase, index);
+        index -= SINE_GRID / 4u;
+        phase->cosine = phase->sine;
+        phase->sine = phase->minus_cosine;
+        phase->minus_cosine = -phase->cosine;
     }
-    normal->phase.index = index;
+    phase->index = index;
     return index;
 }
 

@@ -196,18 +196,21 @@ BASE_INLINE void advance_whole(struct step_f32 *s, const struct step_f32_coeffs 
     slip_whole(s, c, &piece, has_phase, has_floor, false, output);
 }
 
-static BASE_NOINLINE void advance_other(struct step_f32 *s, const struct step_f32_coeffs *c,
-                                        struct plant_output *output)
+static BASE_NOINLINE void advance_phase_floor(struct step_f32 *s, const struct step_f32_coeffs *c,
+                                              struct plant_output *output)
 {
-    if (!c->may_be_whole) {
-        advance_in_pieces(s, c, NULL, output);
-    } else if (c->normal.has_phase) {
-        advance_whole(s, c, true, true, output);
-    } else if (c->has_floor) {
-        advance_whole(s, c, false, true, output);
-    } else {
-        advance_whole(s, c, false, false, output);
-    }
+    advance_whole(s, c, true, true, output);
+}
+
+static BASE_NOINLINE void advance_map(struct step_f32 *s, const struct step_f32_coeffs *c, struct plant_output *output)
+{
+    advance_whole(s, c, false, false, output);
+}
+
+static BASE_NOINLINE void advance_map_floor(struct step_f32 *s, const struct step_f32_coeffs *c,
+                                            struct plant_output *output)
+{
+    advance_whole(s, c, false, true, output);
 }
 
 static BASE_NOINLINE void advance_unpressed(struct step_f32 *s, const struct step_f32_coeffs *c,
@@ -217,8 +220,8 @@ static BASE_NOINLINE void advance_unpressed(struct step_f32 *s, const struct ste
 }
 
 /* The same for the paper's set and a pad that is pressed on the disc throughout, as signs alone can tell. */
-BASE_INLINE void advance_plain(struct step_f32 *s, const struct step_f32_coeffs *c, uint32_t phase,
-                               struct plant_output *output)
+static BASE_NOINLINE void advance_plain(struct step_f32 *s, const struct step_f32_coeffs *c, uint32_t phase,
+                                        struct plant_output *output)
 {
     struct normal_f32_piece piece;
 
@@ -240,7 +243,26 @@ BASE_INLINE void advance_plain(struct step_f32 *s, const struct step_f32_coeffs 
 
 /* ------------------------------------------------------------------------------------------------------------------ */
 
-static BASE_NOINLINE void take_input(struct step_f32 *s, const struct step_f32_coeffs *c, float load, float speed)
+/* Nothing is kept across what is called here, so that no register needs to be saved before it is known what. */
+BASE_INLINE void advance(struct step_f32 *s, const struct step_f32_coeffs *c, struct plant_output *output)
+{
+    const uint32_t phase = normal_f32_open_step(&s->normal, &c->normal);
+
+    if (BASE_LIKELY(c->is_plain)) {
+        advance_plain(s, c, phase, output);
+    } else if (!c->may_be_whole) {
+        advance_in_pieces(s, c, NULL, output);
+    } else if (c->normal.has_phase) {
+        advance_phase_floor(s, c, output);
+    } else if (c->has_floor) {
+        advance_map_floor(s, c, output);
+    } else {
+        advance_map(s, c, output);
+    }
+}
+
+static BASE_NOINLINE void advance_anew(struct step_f32 *s, const struct step_f32_coeffs *c, float load, float speed,
+                                       struct plant_output *output)
 {
     if (load != s->normal.n) {
         normal_f32_set_load(&s->normal, &c->normal, load);
@@ -248,21 +270,16 @@ static BASE_NOINLINE void take_input(struct step_f32 *s, const struct step_f32_c
     if (speed != s->disc) {
         event_f32_set_speed(s, c, speed);
     }
+    advance(s, c, output);
 }
 
-void step_f32_advance(struct step_f32 *state, const struct step_f32_coeffs *coeffs, struct step_f32_input input,
+void step_f32_advance(struct step_f32 *state, const struct step_f32_coeffs *coeffs, float load, float speed,
                       struct plant_output *output)
 {
-    uint32_t phase;
-
-    if (BASE_UNLIKELY(input.load != state->normal.n || input.speed != state->disc)) {
-        take_input(state, coeffs, input.load, input.speed);
-    }
-    phase = normal_f32_open_step(&state->normal, &coeffs->normal);
-    if (BASE_LIKELY(coeffs->is_plain)) {
-        advance_plain(state, coeffs, phase, output);
+    if (BASE_UNLIKELY(load != state->normal.n || speed != state->disc)) {
+        advance_anew(state, coeffs, load, speed, output);
     } else {
-        advance_other(state, coeffs, output);
+        advance(state, coeffs, output);
     }
 }
 

@@ -52,7 +52,7 @@ void step_f32_reset(struct step_f32 *state, const struct step_f32_coeffs *coeffs
 
 /* Advances by one step h and reports it. Cost: one RK4 step, and at most 1 + 2 (PLANT_EVENTS_MAX + PLANT_CONTACTS_MAX)
  * where regimes switch. [ISR] */
-void step_f32_advance(struct step_f32 *state, const struct step_f32_coeffs *coeffs, struct step_f32_input input,
+void step_f32_advance(struct step_f32 *state, const struct step_f32_coeffs *coeffs, float load, float speed,
                       struct plant_output *output);
 
 /* The state as it stands, with nothing having happened. [ANY] */

@@ -230,21 +230,27 @@ BASE_INLINE void advance_tame(struct step_q27 *s, const struct step_q27_coeffs *
     slip_whole(s, c, &piece, is_exact, has_floor, false, output);
 }
 
-static BASE_NOINLINE void advance_tame_other(struct step_q27 *s, const struct step_q27_coeffs *c,
+static BASE_NOINLINE void advance_tame_phase(struct step_q27 *s, const struct step_q27_coeffs *c,
                                              struct plant_output *output)
 {
-    if (c->normal.has_phase) {
-        advance_tame(s, c, true, true, c->has_floor, output);
-    } else if (c->has_floor) {
-        advance_tame(s, c, false, false, true, output);
-    } else {
-        advance_tame(s, c, false, false, false, output);
-    }
+    advance_tame(s, c, true, true, c->has_floor, output);
+}
+
+static BASE_NOINLINE void advance_tame_map(struct step_q27 *s, const struct step_q27_coeffs *c,
+                                           struct plant_output *output)
+{
+    advance_tame(s, c, false, false, false, output);
+}
+
+static BASE_NOINLINE void advance_tame_floor(struct step_q27 *s, const struct step_q27_coeffs *c,
+                                             struct plant_output *output)
+{
+    advance_tame(s, c, false, false, true, output);
 }
 
 /* The same for the paper's set and a pad that is pressed on the disc throughout, as signs alone can tell. */
-BASE_INLINE void advance_plain(struct step_q27 *s, const struct step_q27_coeffs *c, uint32_t index,
-                               struct plant_output *output)
+static BASE_NOINLINE void advance_plain(struct step_q27 *s, const struct step_q27_coeffs *c, uint32_t index,
+                                        struct plant_output *output)
 {
     struct normal_q27_piece piece;
 
@@ -261,7 +267,7 @@ BASE_INLINE void advance_plain(struct step_q27 *s, const struct step_q27_coeffs 
             return;
         }
     }
-    advance_tame_other(s, c, output);
+    advance_tame_phase(s, c, output);
 }
 
 /* |x| and |v| below 2, and a normal motion that stays within what the fine arithmetic serves. */
@@ -272,19 +278,28 @@ BASE_INLINE bool is_tame(const struct step_q27 *s, int32_t reach_max)
     return s->normal.reach < reach_max && size < 2u * TAME_LIMIT;
 }
 
-static BASE_NOINLINE void advance_other(struct step_q27 *s, const struct step_q27_coeffs *c,
-                                        struct plant_output *output)
+/* ------------------------------------------------------------------------------------------------------------------ */
+
+/* Nothing is kept across what is called here, so that no register needs to be saved before it is known what. */
+BASE_INLINE void advance(struct step_q27 *s, const struct step_q27_coeffs *c, struct plant_output *output)
 {
-    if (is_tame(s, c->reach_max)) {
-        advance_tame_other(s, c, output);
-    } else {
+    const uint32_t index = normal_q27_open_step(&s->normal, &c->normal);
+
+    if (BASE_LIKELY(is_tame(s, c->reach_plain))) {
+        advance_plain(s, c, index, output);
+    } else if (!is_tame(s, c->reach_max)) {
         advance_in_pieces(s, c, NULL, output);
+    } else if (c->normal.has_phase) {
+        advance_tame_phase(s, c, output);
+    } else if (c->has_floor) {
+        advance_tame_floor(s, c, output);
+    } else {
+        advance_tame_map(s, c, output);
     }
 }
 
-/* ------------------------------------------------------------------------------------------------------------------ */
-
-static BASE_NOINLINE void take_input(struct step_q27 *s, const struct step_q27_coeffs *c, int32_t load, int32_t speed)
+static BASE_NOINLINE void advance_anew(struct step_q27 *s, const struct step_q27_coeffs *c, int32_t load, int32_t speed,
+                                       struct plant_output *output)
 {
     if (load != s->normal.n) {
         normal_q27_set_load(&s->normal, &c->normal, load, &s->is_saturated);
@@ -292,21 +307,16 @@ static BASE_NOINLINE void take_input(struct step_q27 *s, const struct step_q27_c
     if (speed != s->disc) {
         event_q27_set_speed(s, c, speed);
     }
+    advance(s, c, output);
 }
 
-void step_q27_advance(struct step_q27 *state, const struct step_q27_coeffs *coeffs, struct step_q27_input input,
+void step_q27_advance(struct step_q27 *state, const struct step_q27_coeffs *coeffs, int32_t load, int32_t speed,
                       struct plant_output *output)
 {
-    uint32_t index;
-
-    if (BASE_UNLIKELY(input.load != state->normal.n || input.speed != state->disc)) {
-        take_input(state, coeffs, input.load, input.speed);
-    }
-    index = normal_q27_open_step(&state->normal, &coeffs->normal);
-    if (BASE_LIKELY(is_tame(state, coeffs->reach_plain))) {
-        advance_plain(state, coeffs, index, output);
+    if (BASE_UNLIKELY(load != state->normal.n || speed != state->disc)) {
+        advance_anew(state, coeffs, load, speed, output);
     } else {
-        advance_other(state, coeffs, output);
+        advance(state, coeffs, output);
     }
 }
 

@@ -49,7 +49,7 @@ void step_q27_reset(struct step_q27 *state, const struct step_q27_coeffs *coeffs
 
 /* Advances by one step h and reports it. Cost: one RK4 step, and at most 1 + 2 (PLANT_EVENTS_MAX + PLANT_CONTACTS_MAX)
  * where regimes switch. [ISR] */
-void step_q27_advance(struct step_q27 *state, const struct step_q27_coeffs *coeffs, struct step_q27_input input,
+void step_q27_advance(struct step_q27 *state, const struct step_q27_coeffs *coeffs, int32_t load, int32_t speed,
                       struct plant_output *output);
 
 /* The state as it stands, with nothing having happened. [ANY] */

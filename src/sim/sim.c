@@ -191,16 +191,25 @@ BASE_INLINE bool may_be_outside(const struct plant_output *output)
 }
 
 /* Returns false when the plant has left its domain. */
+BASE_INLINE bool advance_q27(struct sim *sim)
+{
+    const struct step_q27_input input = input_q27(sim);
+
+    step_q27_advance(&sim->q27, &sim->plan->q27, input.load, input.speed, &sim->output);
+    return !step_q27_is_outside(&sim->q27);
+}
+
+BASE_INLINE bool advance_f32(struct sim *sim)
+{
+    const struct step_f32_input input = input_f32(sim);
+
+    step_f32_advance(&sim->f32, &sim->plan->f32, input.load, input.speed, &sim->output);
+    return !may_be_outside(&sim->output) || !step_f32_is_outside(&sim->f32);
+}
+
 BASE_INLINE bool advance_plant(struct sim *sim)
 {
-    const struct sim_plan *plan = sim->plan;
-
-    if (plan->arithmetic == ARITH_Q27) {
-        step_q27_advance(&sim->q27, &plan->q27, input_q27(sim), &sim->output);
-        return !step_q27_is_outside(&sim->q27);
-    }
-    step_f32_advance(&sim->f32, &plan->f32, input_f32(sim), &sim->output);
-    return !may_be_outside(&sim->output) || !step_f32_is_outside(&sim->f32);
+    return sim->plan->arithmetic == ARITH_Q27 ? advance_q27(sim) : advance_f32(sim);
 }
 
 /* The states as words, in the order in which they are hashed. */

@@ -260,15 +260,15 @@ static void check_headroom(const char *assignments, float tolerance)
         q27.mode = q27.v < q27.disc ? PLANT_SLIP_PLUS : PLANT_SLIP_MINUS;
         normal_q27_reset(&q27.normal, &plant.plan.q27.normal, fixed_from_float(plants_random(&state, -size, size), 27),
                          fixed_from_float(plants_random(&state, -size, size), 27), q27.normal.n, &q27.is_saturated);
-        step_f32_reset(&f32, &plant.plan.f32, &plant.plan.params, &plant.plan.scale,
-                       (struct step_f32_input){(float)q27.normal.n * UNIT, (float)q27.disc * UNIT});
+        step_f32_reset(&f32, &plant.plan.f32, &plant.plan.params, &plant.plan.scale, (float)q27.normal.n * UNIT,
+                       (float)q27.disc * UNIT);
         f32.x = (float)q27.x * UNIT;
         f32.v = (float)q27.v * UNIT;
         f32.mode = q27.mode;
         normal_f32_reset(&f32.normal, &plant.plan.f32.normal, (float)q27.normal.y * UNIT, (float)q27.normal.w * UNIT,
                          (float)q27.normal.n * UNIT);
-        step_q27_advance(&q27, &plant.plan.q27, (struct step_q27_input){q27.normal.n, q27.disc}, &output);
-        step_f32_advance(&f32, &plant.plan.f32, (struct step_f32_input){f32.normal.n, f32.disc}, &exact);
+        step_q27_advance(&q27, &plant.plan.q27, q27.normal.n, q27.disc, &output);
+        step_f32_advance(&f32, &plant.plan.f32, f32.normal.n, f32.disc, &exact);
         if (q27.is_saturated) {
             saturated++;
             is_told = is_told && step_q27_is_outside(&q27);
@@ -296,7 +296,7 @@ static void check_ends(const char *assignments, int32_t sign)
     state = *pad;
     state.x = sign * (INT32_MAX - 5);
     state.v = sign * (9 << 27);
-    step_q27_advance(&state, &plant.plan.q27, (struct step_q27_input){state.normal.n, state.disc}, &output);
+    step_q27_advance(&state, &plant.plan.q27, state.normal.n, state.disc, &output);
     tap_check(output.x == sign * INT32_MAX && output.is_saturated && step_q27_is_outside(&state),
               "a displacement beyond the range stays at its end, and the step says so");
     state = *pad;

@@ -44,45 +44,37 @@ const struct plant_output *subjects_output(void) { return &sim.output; }
 
 /* --- Steps --------------------------------------------------------------------------------------------------------- */
 
-static void no_step_f32(struct step_f32 *s, const struct step_f32_coeffs *c, struct step_f32_input input,
+static void no_step_f32(struct step_f32 *s, const struct step_f32_coeffs *c, float load, float speed,
                         struct plant_output *output)
 {
     (void)s;
     (void)c;
-    (void)input;
+    (void)load;
+    (void)speed;
     (void)output;
 }
 
-static void no_step_q27(struct step_q27 *s, const struct step_q27_coeffs *c, struct step_q27_input input,
+static void no_step_q27(struct step_q27 *s, const struct step_q27_coeffs *c, int32_t load, int32_t speed,
                         struct plant_output *output)
 {
     (void)s;
     (void)c;
-    (void)input;
+    (void)load;
+    (void)speed;
     (void)output;
 }
 
-static void (*volatile step_f32)(struct step_f32 *, const struct step_f32_coeffs *, struct step_f32_input,
+static void (*volatile step_f32)(struct step_f32 *, const struct step_f32_coeffs *, float, float,
                                  struct plant_output *);
-static void (*volatile step_q27)(struct step_q27 *, const struct step_q27_coeffs *, struct step_q27_input,
+static void (*volatile step_q27)(struct step_q27 *, const struct step_q27_coeffs *, int32_t, int32_t,
                                  struct plant_output *);
 
 static void aim_f32(bool at_nothing) { step_f32 = at_nothing ? no_step_f32 : step_f32_advance; }
 static void aim_q27(bool at_nothing) { step_q27 = at_nothing ? no_step_q27 : step_q27_advance; }
 
-static void call_f32(void)
-{
-    const struct step_f32_input input = {sim.f32.normal.n, sim.f32.disc};
+static void call_f32(void) { step_f32(&sim.f32, &plan.f32, sim.f32.normal.n, sim.f32.disc, &sim.output); }
 
-    step_f32(&sim.f32, &plan.f32, input, &sim.output);
-}
-
-static void call_q27(void)
-{
-    const struct step_q27_input input = {sim.q27.normal.n, sim.q27.disc};
-
-    step_q27(&sim.q27, &plan.q27, input, &sim.output);
-}
+static void call_q27(void) { step_q27(&sim.q27, &plan.q27, sim.q27.normal.n, sim.q27.disc, &sim.output); }
 
 /* --- The textbook -------------------------------------------------------------------------------------------------- */
 
