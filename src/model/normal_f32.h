@@ -160,9 +160,15 @@ BASE_INLINE void normal_f32_look_stages(const struct normal_f32 *normal, const s
     }
 }
 
-/* From them to the forces. */
+/* From them to the forces; they differ where y < 0 alone. */
 BASE_INLINE void normal_f32_press(const struct normal_f32 *normal, struct normal_f32_piece *piece)
 {
+    const uint32_t signs =
+        fmath_bits(piece->p1) | fmath_bits(piece->p2) | fmath_bits(piece->p3) | fmath_bits(piece->p4);
+
+    if (BASE_LIKELY((int32_t)signs >= 0)) {
+        return;
+    }
     piece->p1 = normal_f32_force(normal, piece->p1);
     piece->p2 = normal_f32_force(normal, piece->p2);
     piece->p3 = normal_f32_force(normal, piece->p3);

@@ -186,9 +186,12 @@ BASE_INLINE void normal_q27_look_stages(const struct normal_q27 *normal, const s
     }
 }
 
-/* From them to the forces. */
+/* From them to the forces; they differ where y < 0 alone. */
 BASE_INLINE void normal_q27_press(const struct normal_q27 *normal, struct normal_q27_piece *piece)
 {
+    if (BASE_LIKELY((piece->p1 | piece->p2 | piece->p3 | piece->p4) >= 0)) {
+        return;
+    }
     piece->p1 = normal_q27_force(normal, piece->p1);
     piece->p2 = normal_q27_force(normal, piece->p2);
     piece->p3 = normal_q27_force(normal, piece->p3);

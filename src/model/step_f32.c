@@ -220,8 +220,8 @@ static BASE_NOINLINE void advance_unpressed(struct step_f32 *s, const struct ste
 }
 
 /* The same for the paper's set and a pad that is pressed on the disc throughout, as signs alone can tell. */
-static BASE_NOINLINE void advance_plain(struct step_f32 *s, const struct step_f32_coeffs *c, uint32_t phase,
-                                        struct plant_output *output)
+BASE_INLINE void advance_plain(struct step_f32 *s, const struct step_f32_coeffs *c, uint32_t phase,
+                               struct plant_output *output)
 {
     struct normal_f32_piece piece;
 
