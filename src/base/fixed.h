@@ -48,12 +48,6 @@ static inline int32_t fixed_part(int32_t value, int32_t fraction)
     return (int32_t)fixed_round_up((int64_t)value * fraction, 30u);
 }
 
-/* The same up to four units less, by the upper word alone. */
-static inline int32_t fixed_part_near(int32_t value, int32_t fraction)
-{
-    return (int32_t)fixed_floor((int64_t)value * fraction, 32u) * 4;
-}
-
 /* The nearest value that fits 32 bits, symmetric: never INT32_MIN. */
 static inline int32_t fixed_saturate(int64_t value)
 {
@@ -78,13 +72,19 @@ struct fixed_sum {
     int32_t high;
 };
 
+/* The sum in one number. */
+static inline int64_t fixed_sum_whole(const struct fixed_sum *sum)
+{
+    return (int64_t)sum->high * (INT64_C(1) << 32) + sum->low;
+}
+
 /* Adds a b. */
 BASE_INLINE void fixed_sum_add(struct fixed_sum *sum, int32_t a, int32_t b)
 {
 #ifdef BASE_ADD_PRODUCT
     BASE_ADD_PRODUCT(sum->low, sum->high, a, b);
 #else
-    const int64_t whole = (int64_t)sum->high * (INT64_C(1) << 32) + sum->low + (int64_t)a * b;
+    const int64_t whole = fixed_sum_whole(sum) + (int64_t)a * b;
 
     sum->low = (uint32_t)whole;
     sum->high = (int32_t)fixed_floor(whole, 32u);
@@ -102,6 +102,12 @@ BASE_INLINE struct fixed_sum fixed_sum_of(int32_t a, int32_t b)
     fixed_sum_add(&sum, a, b);
 #endif
     return sum;
+}
+
+/* A part of a value as fixed_part() gives it, but up to four units less: by the upper word alone. */
+static inline int32_t fixed_part_near(int32_t value, int32_t fraction)
+{
+    return fixed_sum_of(value, fraction).high * 4;
 }
 
 /* Bits that the magnitude takes, 0 for 0. */
