@@ -3,7 +3,7 @@
 
 #include <stdbool.h>
 
-enum { NEWTON_PASSES = 2, INPUT_BITS = 24 };
+enum { NEWTON_PASSES = 2, INPUT_BITS = 25 };
 
 static uint64_t magnitude(int64_t value) { return value < 0 ? 0u - (uint64_t)value : (uint64_t)value; }
 

@@ -41,38 +41,6 @@ static struct normal_f32_map make_map(float damping, float duration)
     return (struct normal_f32_map){-u, s, -s, -u - damping * s};
 }
 
-/* One column of what RK4 makes of (y - n, w) over a step: its stages and its end, less the identity. */
-static void make_rk4_column(float damping, float h, float d, float w, struct normal_f32_row *rows[3], bool is_w,
-                            float *y_end, float *w_end)
-{
-    const float half = 0.5f * h;
-    const float a1 = -d - damping * w;
-    const float w2 = w + half * a1;
-    const float y2 = half * w;
-    const float a2 = -(d + y2) - damping * w2;
-    const float w3 = w + half * a2;
-    const float y3 = half * w2;
-    const float a3 = -(d + y3) - damping * w3;
-    const float w4 = w + h * a3;
-    const float y4 = h * w3;
-    const float a4 = -(d + y4) - damping * w4;
-    const float y[3] = {y2, y3, y4};
-
-    for (int i = 0; i < 3; i++) {
-        *(is_w ? &rows[i]->yw : &rows[i]->yy) = y[i];
-    }
-    *y_end = h * (1.0f / 6.0f) * (w + 2.0f * (w2 + w3) + w4);
-    *w_end = h * (1.0f / 6.0f) * (a1 + 2.0f * (a2 + a3) + a4);
-}
-
-static void make_rk4(struct normal_f32_coeffs *coeffs, float h)
-{
-    struct normal_f32_row *rows[3] = {&coeffs->second, &coeffs->third, &coeffs->fourth};
-
-    make_rk4_column(coeffs->damping, h, 1.0f, 0.0f, rows, false, &coeffs->full.yy, &coeffs->full.wy);
-    make_rk4_column(coeffs->damping, h, 0.0f, 1.0f, rows, true, &coeffs->full.yw, &coeffs->full.ww);
-}
-
 void normal_f32_configure(struct normal_f32_coeffs *coeffs, const struct params *params, const struct scale *scale)
 {
     coeffs->damping = scale->normal_damping;
@@ -81,15 +49,8 @@ void normal_f32_configure(struct normal_f32_coeffs *coeffs, const struct params 
     coeffs->contact = (uint8_t)params->contact;
     coeffs->is_exact = (int)params->normal_method == NORMAL_EXACT;
     coeffs->has_phase = coeffs->is_exact && scale->normal_damping == 0.0f && coeffs->contact != CONTACT_LIFT;
-    if (coeffs->is_exact) {
-        const struct normal_f32_map half = make_map(scale->normal_damping, 0.5f * scale->step);
-
-        coeffs->full = make_map(scale->normal_damping, scale->step);
-        coeffs->second = coeffs->third = (struct normal_f32_row){half.yy, half.yw};
-        coeffs->fourth = (struct normal_f32_row){coeffs->full.yy, coeffs->full.yw};
-    } else {
-        make_rk4(coeffs, scale->step);
-    }
+    coeffs->full = make_map(scale->normal_damping, scale->step);
+    coeffs->half = make_map(scale->normal_damping, 0.5f * scale->step);
 }
 
 /* Printed, the contact pulls where y < 0; the other modes know no pull, and neither does the rounding of a touch at 0. */
@@ -126,35 +87,6 @@ void normal_f32_set_load(struct normal_f32 *normal, const struct normal_f32_coef
     }
 }
 
-static void look_rk4(const struct normal_f32 *normal, const struct normal_f32_coeffs *coeffs, float duration,
-                     struct normal_f32_piece *piece)
-{
-    const float spring = normal->is_lifted ? 0.0f : 1.0f;
-    const float half = 0.5f * duration;
-    const float sixth = duration * (1.0f / 6.0f);
-    const float y1 = normal->y;
-    const float w1 = normal->w;
-    const float a1 = normal->n - coeffs->damping * w1 - spring * y1;
-    const float y2 = y1 + half * w1;
-    const float w2 = w1 + half * a1;
-    const float a2 = normal->n - coeffs->damping * w2 - spring * y2;
-    const float y3 = y1 + half * w2;
-    const float w3 = w1 + half * a2;
-    const float a3 = normal->n - coeffs->damping * w3 - spring * y3;
-    const float y4 = y1 + duration * w3;
-    const float w4 = w1 + duration * a3;
-    const float a4 = normal->n - coeffs->damping * w4 - spring * y4;
-
-    piece->dy = sixth * (w1 + 2.0f * (w2 + w3) + w4);
-    piece->dw = sixth * (a1 + 2.0f * (a2 + a3) + a4);
-    piece->y = y1 + piece->dy;
-    piece->w = w1 + piece->dw;
-    piece->p1 = normal_f32_force(normal, y1);
-    piece->p2 = normal_f32_force(normal, y2);
-    piece->p3 = normal_f32_force(normal, y3);
-    piece->p4 = normal_f32_force(normal, y4);
-}
-
 /* Part of a step, or one without the spring, in closed form. */
 static void look_series(const struct normal_f32 *normal, const struct normal_f32_coeffs *coeffs, float duration,
                         struct normal_f32_piece *piece)
@@ -176,14 +108,15 @@ static void look_series(const struct normal_f32 *normal, const struct normal_f32
 void normal_f32_look(const struct normal_f32 *normal, const struct normal_f32_coeffs *coeffs, float duration,
                      bool is_whole, struct normal_f32_piece *piece)
 {
-    if (is_whole && !normal->is_lifted) {
-        normal_f32_look_end(normal, &coeffs->full, piece);
-        normal_f32_look_stages(normal, coeffs, coeffs->is_exact, piece);
+    if (!coeffs->is_exact) {
+        normal_f32_look_rk4(normal, coeffs, duration, normal->is_lifted ? 0.0f : 1.0f, piece);
         normal_f32_press(normal, piece);
-    } else if (coeffs->is_exact) {
-        look_series(normal, coeffs, duration, piece);
+    } else if (is_whole && !normal->is_lifted) {
+        normal_f32_look_end(normal, &coeffs->full, piece);
+        normal_f32_look_middle(normal, coeffs, piece);
+        normal_f32_press(normal, piece);
     } else {
-        look_rk4(normal, coeffs, duration, piece);
+        look_series(normal, coeffs, duration, piece);
     }
 }
 

@@ -18,11 +18,6 @@ struct normal_f32_map {
     float yy, yw, wy, ww; /* (y - n, w) changes by this matrix times (y - n, w) */
 };
 
-/* y at a stage changes by this row times (y - n, w). */
-struct normal_f32_row {
-    float yy, yw;
-};
-
 struct normal_f32_coeffs {
     float damping; /* Cn */
     float step;    /* h */
@@ -30,8 +25,7 @@ struct normal_f32_coeffs {
     bool is_exact;
     bool has_phase; /* exact, undamped and never lifted: y from an integer phase index */
     uint8_t contact;
-    struct normal_f32_map full; /* over h, of either method: the equation is linear, and so is RK4 of it */
-    struct normal_f32_row second, third, fourth; /* at the stages of RK4 */
+    struct normal_f32_map full, half; /* over h and h/2, in closed form */
 };
 
 struct normal_f32 {
@@ -142,22 +136,45 @@ BASE_INLINE void normal_f32_look_end(const struct normal_f32 *normal, const stru
     piece->w = normal->w + piece->dw;
 }
 
-/* The displacements of its stages, in the places of the forces. Where the closed form is used the middle two are one, and the
- * last is that of the end. */
-BASE_INLINE void normal_f32_look_stages(const struct normal_f32 *normal, const struct normal_f32_coeffs *coeffs,
-                                        bool is_exact, struct normal_f32_piece *piece)
+/* The displacements of its stages, in the places of the forces: the middle two are one, and the last is that of the end. */
+BASE_INLINE void normal_f32_look_middle(const struct normal_f32 *normal, const struct normal_f32_coeffs *coeffs,
+                                        struct normal_f32_piece *piece)
 {
     const float d = normal->y - normal->n;
 
     piece->p1 = normal->y;
-    piece->p2 = normal->y + (coeffs->second.yy * d + coeffs->second.yw * normal->w);
-    if (is_exact) {
-        piece->p3 = piece->p2;
-        piece->p4 = piece->y;
-    } else {
-        piece->p3 = normal->y + (coeffs->third.yy * d + coeffs->third.yw * normal->w);
-        piece->p4 = normal->y + (coeffs->fourth.yy * d + coeffs->fourth.yw * normal->w);
-    }
+    piece->p2 = normal->y + (coeffs->half.yy * d + coeffs->half.yw * normal->w);
+    piece->p3 = piece->p2;
+    piece->p4 = piece->y;
+}
+
+/* The same by RK4; spring is 0 for a pad that is lifted, else 1. */
+BASE_INLINE void normal_f32_look_rk4(const struct normal_f32 *normal, const struct normal_f32_coeffs *coeffs,
+                                     float duration, float spring, struct normal_f32_piece *piece)
+{
+    const float half = 0.5f * duration;
+    const float sixth = duration * (1.0f / 6.0f);
+    const float y1 = normal->y;
+    const float w1 = normal->w;
+    const float a1 = normal->n - coeffs->damping * w1 - spring * y1;
+    const float y2 = y1 + half * w1;
+    const float w2 = w1 + half * a1;
+    const float a2 = normal->n - coeffs->damping * w2 - spring * y2;
+    const float y3 = y1 + half * w2;
+    const float w3 = w1 + half * a2;
+    const float a3 = normal->n - coeffs->damping * w3 - spring * y3;
+    const float y4 = y1 + duration * w3;
+    const float w4 = w1 + duration * a3;
+    const float a4 = normal->n - coeffs->damping * w4 - spring * y4;
+
+    piece->dy = sixth * (w1 + 2.0f * (w2 + w3) + w4);
+    piece->dw = sixth * (a1 + 2.0f * (a2 + a3) + a4);
+    piece->y = y1 + piece->dy;
+    piece->w = w1 + piece->dw;
+    piece->p1 = y1;
+    piece->p2 = y2;
+    piece->p3 = y3;
+    piece->p4 = y4;
 }
 
 /* From them to the forces; they differ where y < 0 alone. */

@@ -63,14 +63,14 @@ BASE_INLINE int32_t slip_q27_factor(int64_t factor, bool *is_saturated)
     return fit;
 }
 
-/* In the fine arithmetic the upper word of a factor times a state is in Q27, coarse beside a factor in Q32. What is cut off
+/* In the fine arithmetic the upper word of fade times twice a state is in Q28, coarse beside a factor in Q32. What is cut off
  * averages to half a unit. */
-enum { SLIP_Q27_UPPER_UNIT = 32 };
+enum { SLIP_Q27_UPPER_UNIT = 16 };
 
 BASE_INLINE int32_t slip_q27_drive(const struct slip_q27_factors *f, int32_t disc, bool *is_saturated)
 {
     if (is_saturated == NULL) {
-        return f->friction - fixed_sum_of(f->fade, disc).high * SLIP_Q27_UPPER_UNIT - SLIP_Q27_UPPER_UNIT / 2;
+        return f->friction - fixed_sum_of(f->fade, 2 * disc).high * SLIP_Q27_UPPER_UNIT - SLIP_Q27_UPPER_UNIT / 2;
     }
     return slip_q27_factor(f->friction - fixed_round_up((int64_t)f->fade * disc, 27u), is_saturated);
 }
@@ -154,7 +154,7 @@ BASE_INLINE struct slip_q27_law slip_q27_law(const struct slip_q27_factors *f, c
     if (has_floor && -(f->fade * ((int64_t)view->disc - v)) < f->knee) {
         return (struct slip_q27_law){f->floor, f->damp};
     }
-    return (struct slip_q27_law){view->drive, f->damp + fixed_sum_of(f->fade, p).high * SLIP_Q27_UPPER_UNIT};
+    return (struct slip_q27_law){view->drive, f->damp + fixed_sum_of(f->fade, 2 * p).high * SLIP_Q27_UPPER_UNIT};
 }
 
 /* RK4 as its stages are linear: with v2 = v1 + a1/2, v3 = v1 + a2/2, v4 = v1 + a3 and the places of x that belong to them,

@@ -184,14 +184,18 @@ BASE_INLINE void advance_whole(struct step_f32 *s, const struct step_f32_coeffs 
 
     if (has_phase) {
         normal_f32_at(&s->normal, s->normal.phase, &piece.y, &piece.w);
-    } else {
+    } else if (c->normal.is_exact) {
         normal_f32_look_end(&s->normal, &c->normal.full, &piece);
+    } else {
+        normal_f32_look_rk4(&s->normal, &c->normal, c->normal.step, 1.0f, &piece);
     }
     if (s->mode == PLANT_STICK) {
         stick_whole(s, c, &piece, has_phase, false, output);
         return;
     }
-    normal_f32_look_stages(&s->normal, &c->normal, has_phase, &piece);
+    if (has_phase || c->normal.is_exact) {
+        normal_f32_look_middle(&s->normal, &c->normal, &piece);
+    }
     normal_f32_press(&s->normal, &piece);
     slip_whole(s, c, &piece, has_phase, has_floor, false, output);
 }
@@ -232,7 +236,7 @@ BASE_INLINE void advance_plain(struct step_f32 *s, const struct step_f32_coeffs 
             return;
         }
     } else {
-        normal_f32_look_stages(&s->normal, &c->normal, true, &piece);
+        normal_f32_look_middle(&s->normal, &c->normal, &piece);
         if (BASE_LIKELY((int32_t)(fmath_bits(piece.p1) | fmath_bits(piece.p2) | fmath_bits(piece.p4)) >= 0)) {
             slip_whole(s, c, &piece, true, false, true, output);
             return;
