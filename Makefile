@@ -95,7 +95,7 @@ $(shell mkdir -p build && echo '$(BUILD_ID)' >build/build_id)
 endif
 
 # --- Rules ----------------------------------------------------------------------------------------------------------
-.PHONY: bench bench-board all run paper tool monitor console test golden oracle hil detector noise converge frames fuzz bench-link bench-link-on debug bits check size clean help setup setup-clang other-images host-image command
+.PHONY: bench bench-board bench-images all run paper tool monitor console test golden oracle hil detector noise converge frames fuzz bench-link bench-link-on debug bits check size clean help setup setup-clang other-images host-image command
 .DELETE_ON_ERROR:
 
 all: $(IMAGE) $(CONTROLLER) ## build the firmware and the controller of tests/hil for BOARD (default mps2-an386)
@@ -287,11 +287,13 @@ fuzz: $(FUZZER) $(REPLAY) build/fuzz/dictionary ## throw random bytes at console
 	    [ $$code = 0 ] || ls -t crash-* timeout-* oom-* 2>/dev/null | sed 's,^,build/fuzz/,;s,$$, breaks something: tests/fuzz/README.md says what to do,'; \
 	    exit $$code; }
 
-bench: ## count instructions on every emulated board, compare, and prove the rates they can keep; results in build/bench
-	$(Q)COMMANDS="$$(for board in $(BOARDS_EMULATED); do $(MAKE) -s --no-print-directory BOARD=$$board bench-board >&2 && \
-	    $(MAKE) -s --no-print-directory BOARD=$$board command || exit; done)" && export COMMANDS && \
-	mkdir -p build/bench && tests/bench/target/target.py --out build/bench | tee build/bench/table.txt && \
+bench: bench-images ## count instructions on every emulated board, compare, and prove the rates they can keep; results in build/bench
+	$(Q)COMMANDS="$(call commands_of,$(BOARDS_EMULATED))" && \
+	export COMMANDS && mkdir -p build/bench && { tests/bench/target/target.py --out build/bench | tee build/bench/table.txt; } && \
 	! grep -q '^over\|^not ' build/bench/table.txt
+
+bench-images:
+	$(Q)for board in $(BOARDS_EMULATED); do $(MAKE) --no-print-directory BOARD=$$board bench-board || exit; done
 
 bench-board: $(IMAGE) $(BENCH)
 
@@ -304,7 +306,7 @@ bench-link: ## count turns of lockstep a second, beside what the line alone take
 bench-link-on: $(IMAGE) $(ECHO) $(BENCH_LINK)
 	$(Q)$(BENCH_LINK) --turns $(TURNS) --socket $(LINK) -- $(COMMAND) $(if $(ECHO),-- $(BOARD_RUN) $(ECHO))
 
-test: $(IMAGE) $(CONTROLLER) $(UNIT_IMAGE) $(PROBE) $(UNIT_HOST) $(TOOL) $(ORACLE) $(CAMPAIGN) $(MERIT) $(PICTURES) $(CONVERGE) $(BENCH_LINK) $(ECHO) $(FUZZER) build/fuzz/dictionary $(REPLAY) other-images ## run everything that a change must pass
+test: $(IMAGE) $(CONTROLLER) $(UNIT_IMAGE) $(PROBE) $(UNIT_HOST) $(TOOL) $(ORACLE) $(CAMPAIGN) $(MERIT) $(PICTURES) $(CONVERGE) $(BENCH_LINK) $(ECHO) $(FUZZER) build/fuzz/dictionary $(REPLAY) other-images bench-images ## run everything that a change must pass
 	$(Q)COMMANDS="$(call commands_of,$(BOARDS))" BOARD=$(BOARD) BOARD_RUN="$(BOARD_RUN)" IMAGE=$(IMAGE) CONTROLLER=$(CONTROLLER) UNIT_IMAGE=$(UNIT_IMAGE) PROBE=$(PROBE) \
 	    UNIT_HOST=$(UNIT_HOST) HOST_IMAGE=build/host/squeal TOOL=$(TOOL) ORACLE=$(CURDIR)/$(ORACLE) CAMPAIGN=$(CAMPAIGN) MERIT=$(CURDIR)/$(MERIT) \
 	    PICTURES=$(CURDIR)/$(PICTURES) CONVERGE=$(CURDIR)/$(CONVERGE) BENCH_LINK=$(BENCH_LINK) \

@@ -24,8 +24,7 @@ static void configure_factors(struct slip_q27_factors *f, const struct scale *sc
     f->stretch = (int32_t)fixed_round_up((int64_t)f->spring * f->travel, 32u);
     f->half_stretch = (int32_t)fixed_round_up((int64_t)f->spring * f->travel, 33u);
     f->friction = fixed_saturate(friction);
-    f->fade =
-        fixed_saturate(-times_step(scale, scale->friction_slope, bits));
+    f->fade = fixed_saturate(-times_step(scale, scale->friction_slope, bits));
     f->floor = fixed_saturate(floor);
     f->drag = (1 << 26) - times_step(scale, scale->damping, bits + 27);
     f->damp = fixed_saturate(SLIP_Q27_UPPER_UNIT / 2 - times_step(scale, scale->damping, bits));
@@ -45,8 +44,7 @@ static bool is_fine(const struct scale *scale, int64_t quarters)
     const int64_t drive = floor > slipping ? floor : slipping;
     const int64_t drag = times_step(scale, scale->damping, SLIP_Q27_FINE) + fade * quarters / 4;
 
-    if (drive >= FINE_LIMIT || drag >= FINE_LIMIT || spring >= FINE_LIMIT ||
-        floor <= -FINE_LIMIT) {
+    if (drive >= FINE_LIMIT || drag >= FINE_LIMIT || spring >= FINE_LIMIT || floor <= -FINE_LIMIT) {
         return false;
     }
     return drive * quarters / 4 + 10 * drag + 2 * spring + 16 * fixed_round_up(spring * travel, 32u) <= 8 * FINE_LIMIT;

@@ -12,8 +12,8 @@
 static struct hermite_q27 cubic(float a, float b, float c, float d, int bits)
 {
     return hermite_q27_make_wide(fixed_times_float(1, a, bits), fixed_times_float(1, b, bits),
-                            fixed_times_float(1, a + b + c + d, bits),
-                            fixed_times_float(1, b + 2.0f * c + 3.0f * d, bits));
+                                 fixed_times_float(1, a + b + c + d, bits),
+                                 fixed_times_float(1, b + 2.0f * c + 3.0f * d, bits));
 }
 
 /* (root - t)(1 + lean t + bend t^2) */
@@ -49,9 +49,9 @@ static void check_roots(void)
         const float lean = plants_random(&state, -0.2f, 0.2f);
         const float bend = plants_random(&state, -0.1f, 0.1f);
         const struct hermite_q27 straight = with_root(root, lean, bend, units[i % 4u]);
-        const struct hermite_q27 wild =
-            hermite_q27_make_wide(1 + (int64_t)tap_random(&state), (int64_t)tap_random(&state) * 30 - (INT64_C(15) << 32),
-                             -1 - (int64_t)tap_random(&state), (int64_t)tap_random(&state) * 30 - (INT64_C(15) << 32));
+        const struct hermite_q27 wild = hermite_q27_make_wide(
+            1 + (int64_t)tap_random(&state), (int64_t)tap_random(&state) * 30 - (INT64_C(15) << 32),
+            -1 - (int64_t)tap_random(&state), (int64_t)tap_random(&state) * 30 - (INT64_C(15) << 32));
         const int32_t place = hermite_q27_root(&wild, HERMITE_Q27_ONE);
 
         worst = fmath_max(worst, fmath_abs(root_of(&straight, 1.0f) - root));

@@ -237,7 +237,7 @@ def main():
     options = parser.parse_args()
     commands = dict(line.split(": ", 1) for line in os.environ.get("COMMANDS", "").splitlines())
     os.makedirs(options.out, exist_ok=True)
-    boards = [Board(name, command.split()) for name, command in sorted(commands.items())]
+    boards = [Board(name, command.split()) for name, command in sorted(commands.items()) if name != "host"]
     if not boards:
         sys.exit("no boards: make bench sets COMMANDS")
     write_csv(os.path.join(options.out, "target.csv"), boards)
