@@ -199,7 +199,7 @@ BASE_INLINE bool advance_q27(struct sim *sim)
     return !step_q27_is_outside(&sim->q27);
 }
 
-BASE_INLINE bool advance_f32(struct sim *sim)
+static BASE_NOINLINE bool advance_f32(struct sim *sim)
 {
     const struct step_f32_input input = input_f32(sim);
 
