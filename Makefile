@@ -6,6 +6,7 @@ BOARDS := $(filter-out template,$(notdir $(patsubst %/board.mk,%,$(wildcard boar
 ifeq ($(filter $(BOARD),$(BOARDS) template),)
 $(error there is no board '$(BOARD)'; the boards are: $(BOARDS))
 endif
+BOARDS_EMULATED := $(filter-out host,$(BOARDS))
 .DEFAULT_GOAL := all
 
 # As many jobs as processors, for the makes below too; -j on the command line has its way.
@@ -61,6 +62,7 @@ MERIT      := build/tests/merit
 BENCH_LINK := build/tests/bench-link
 # What the link's bench measures by, where the board has a UART of its own: an image that does nothing but answer.
 ECHO       := $(if $(BOARD_ECHO),$(OUT_BOARD)/echo$(BOARD_SUFFIX))
+BENCH      := $(OUT_BOARD)/bench$(BOARD_SUFFIX)
 PICTURES   := build/tests/monitor
 CONVERGE   := build/tests/converge
 FUZZER     := build/fuzz/fuzzer
@@ -80,7 +82,9 @@ OBJECTS_BENCH := $(SOURCES_BENCH:%.c=build/tools/%.o)
 OBJECTS_REPLAY := $(patsubst %.c,build/unit/%.o,$(SOURCES) $(wildcard tests/fuzz/*.c))
 OBJECTS_FUZZER := $(patsubst %.c,build/fuzz/%.o,$(SOURCES) $(filter-out tests/fuzz/files.c,$(wildcard tests/fuzz/*.c)))
 OBJECTS_ECHO  := $(patsubst %.c,$(OUT_BOARD)/%.o,$(filter src/base/%,$(SOURCES)) $(SOURCES_BOARD) $(BOARD_ECHO))
-OBJECTS       := $(sort $(OBJECTS_IMAGE) $(OBJECTS_UNIT) $(OBJECTS_PROBE) $(OBJECTS_CONTROLLER) $(OBJECTS_HOST) $(OBJECTS_TOOL) \
+OBJECTS_TARGET := $(patsubst %.c,$(OUT_BOARD)/%.o,$(filter-out src/protocol/%,$(SOURCES)) $(SOURCES_BOARD) src/app/isr.c src/app/fault.c \
+                    $(wildcard tests/bench/target/*.c))
+OBJECTS       := $(sort $(OBJECTS_TARGET) $(OBJECTS_IMAGE) $(OBJECTS_UNIT) $(OBJECTS_PROBE) $(OBJECTS_CONTROLLER) $(OBJECTS_HOST) $(OBJECTS_TOOL) \
                         $(OBJECTS_LINE) $(OBJECTS_MERIT) $(OBJECTS_PICTURES) $(OBJECTS_CONVERGE) $(OBJECTS_BENCH) \
                         $(OBJECTS_REPLAY) $(OBJECTS_FUZZER) $(if $(ECHO),$(OBJECTS_ECHO)))
 
@@ -91,7 +95,7 @@ $(shell mkdir -p build && echo '$(BUILD_ID)' >build/build_id)
 endif
 
 # --- Rules ----------------------------------------------------------------------------------------------------------
-.PHONY: all run paper tool monitor console test golden oracle hil detector noise converge frames fuzz bench-link bench-link-on debug bits check size clean help setup setup-clang other-images host-image command
+.PHONY: bench bench-board bench-images all run paper tool monitor console test golden oracle hil detector noise converge frames fuzz bench-link bench-link-on debug bits check size clean help setup setup-clang other-images host-image command
 .DELETE_ON_ERROR:
 
 all: $(IMAGE) $(CONTROLLER) ## build the firmware and the controller of tests/hil for BOARD (default mps2-an386)
@@ -143,7 +147,8 @@ $(UNIT_IMAGE): BOARD_LDFLAGS += $(BOARD_LDFLAGS_UNIT)
 $(PROBE): $(OBJECTS_PROBE)
 $(CONTROLLER): $(OBJECTS_CONTROLLER)
 $(ECHO): $(OBJECTS_ECHO)
-$(IMAGE) $(UNIT_IMAGE) $(PROBE) $(CONTROLLER) $(ECHO): $(wildcard linker/*.ld)
+$(BENCH): $(OBJECTS_TARGET)
+$(IMAGE) $(UNIT_IMAGE) $(PROBE) $(CONTROLLER) $(ECHO) $(BENCH): $(wildcard linker/*.ld)
 	$(call say,LD,$@)
 	$(Q)$(BOARD_CC) $(CFLAGS_BOARD) $(BOARD_LDFLAGS) $(filter %.o,$^) -o $@ $(BOARD_LIBS)
 
@@ -282,6 +287,17 @@ fuzz: $(FUZZER) $(REPLAY) build/fuzz/dictionary ## throw random bytes at console
 	    [ $$code = 0 ] || ls -t crash-* timeout-* oom-* 2>/dev/null | sed 's,^,build/fuzz/,;s,$$, breaks something: tests/fuzz/README.md says what to do,'; \
 	    exit $$code; }
 
+bench: bench-images ## count instructions on every emulated board, compare, and prove the rates they can keep; results in build/bench
+	$(Q)COMMANDS="$(call commands_of,$(BOARDS_EMULATED))" && \
+	export COMMANDS && mkdir -p build/bench && \
+	{ tests/bench/target/target.py --out build/bench || echo 'not ok: it ended so'; } | tee build/bench/table.txt && \
+	! grep -q '^over\|^not ' build/bench/table.txt
+
+bench-images:
+	$(Q)for board in $(BOARDS_EMULATED); do $(MAKE) --no-print-directory BOARD=$$board bench-board || exit; done
+
+bench-board: $(IMAGE) $(BENCH)
+
 # What starts the firmware depends on LINK=.
 BENCH_SOCKET := $(OUT_BOARD)/bench.sock
 
@@ -291,7 +307,7 @@ bench-link: ## count turns of lockstep a second, beside what the line alone take
 bench-link-on: $(IMAGE) $(ECHO) $(BENCH_LINK)
 	$(Q)$(BENCH_LINK) --turns $(TURNS) --socket $(LINK) -- $(COMMAND) $(if $(ECHO),-- $(BOARD_RUN) $(ECHO))
 
-test: $(IMAGE) $(CONTROLLER) $(UNIT_IMAGE) $(PROBE) $(UNIT_HOST) $(TOOL) $(ORACLE) $(CAMPAIGN) $(MERIT) $(PICTURES) $(CONVERGE) $(BENCH_LINK) $(ECHO) $(FUZZER) build/fuzz/dictionary $(REPLAY) other-images ## run everything that a change must pass
+test: $(IMAGE) $(CONTROLLER) $(UNIT_IMAGE) $(PROBE) $(UNIT_HOST) $(TOOL) $(ORACLE) $(CAMPAIGN) $(MERIT) $(PICTURES) $(CONVERGE) $(BENCH_LINK) $(ECHO) $(FUZZER) build/fuzz/dictionary $(REPLAY) other-images bench-images ## run everything that a change must pass
 	$(Q)COMMANDS="$(call commands_of,$(BOARDS))" BOARD=$(BOARD) BOARD_RUN="$(BOARD_RUN)" IMAGE=$(IMAGE) CONTROLLER=$(CONTROLLER) UNIT_IMAGE=$(UNIT_IMAGE) PROBE=$(PROBE) \
 	    UNIT_HOST=$(UNIT_HOST) HOST_IMAGE=build/host/squeal TOOL=$(TOOL) ORACLE=$(CURDIR)/$(ORACLE) CAMPAIGN=$(CAMPAIGN) MERIT=$(CURDIR)/$(MERIT) \
 	    PICTURES=$(CURDIR)/$(PICTURES) CONVERGE=$(CURDIR)/$(CONVERGE) BENCH_LINK=$(BENCH_LINK) \

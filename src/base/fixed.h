@@ -66,6 +66,50 @@ BASE_INLINE int32_t fixed_saturate_and_tell(int64_t value, bool *is_saturated)
     return fixed_saturate(value);
 }
 
+/* A sum of products, 64 bits in two words: what is above and what is below 2^32. The sum must fit. */
+struct fixed_sum {
+    uint32_t low;
+    int32_t high;
+};
+
+/* The sum in one number. */
+static inline int64_t fixed_sum_whole(const struct fixed_sum *sum)
+{
+    return (int64_t)sum->high * (INT64_C(1) << 32) + sum->low;
+}
+
+/* Adds a b. */
+BASE_INLINE void fixed_sum_add(struct fixed_sum *sum, int32_t a, int32_t b)
+{
+#ifdef BASE_ADD_PRODUCT
+    BASE_ADD_PRODUCT(sum->low, sum->high, a, b);
+#else
+    const int64_t whole = fixed_sum_whole(sum) + (int64_t)a * b;
+
+    sum->low = (uint32_t)whole;
+    sum->high = (int32_t)fixed_floor(whole, 32u);
+#endif
+}
+
+/* a b. */
+BASE_INLINE struct fixed_sum fixed_sum_of(int32_t a, int32_t b)
+{
+    struct fixed_sum sum;
+#ifdef BASE_PRODUCT
+    BASE_PRODUCT(sum.low, sum.high, a, b);
+#else
+    sum = (struct fixed_sum){0u, 0};
+    fixed_sum_add(&sum, a, b);
+#endif
+    return sum;
+}
+
+/* A part of a value as fixed_part() gives it, but up to four units less: by the upper word alone. */
+static inline int32_t fixed_part_near(int32_t value, int32_t fraction)
+{
+    return fixed_sum_of(value, fraction).high * 4;
+}
+
 /* Bits that the magnitude takes, 0 for 0. */
 unsigned fixed_bits(uint64_t magnitude);
 

@@ -20,19 +20,32 @@ void ring_init(struct ring *ring, void *storage, size_t record_size, uint32_t ca
     ring->dropped = 0u;
 }
 
-uint32_t ring_fill(const struct ring *ring) { return ring->head - ring->tail; }
-
-bool ring_push(struct ring *ring, const void *record)
+void *ring_reserve(struct ring *ring)
 {
     const uint32_t head = ring->head;
 
     if (head - ring->tail == ring->capacity) {
         ring->dropped++;
+        return NULL;
+    }
+    return slot(ring, head);
+}
+
+void ring_commit(struct ring *ring)
+{
+    BASE_BARRIER();
+    ring->head = ring->head + 1u;
+}
+
+bool ring_push(struct ring *ring, const void *record)
+{
+    void *const place = ring_reserve(ring);
+
+    if (place == NULL) {
         return false;
     }
-    memcpy(slot(ring, head), record, ring->record_size);
-    BASE_BARRIER();
-    ring->head = head + 1u;
+    memcpy(place, record, ring->record_size);
+    ring_commit(ring);
     return true;
 }
 

@@ -3,14 +3,55 @@
 
 #include "base/fmath.h"
 #include "model/hermite_f32.h"
-#include "model/slip_f32.h"
 
-/* At vr = 0 the pad sticks if friction can hold it; otherwise it slips to the side that the need pulls it to. The same
- * test serves entry and exit: static and kinetic friction are equal at vr = 0. */
-static int8_t regime_at_rest(const struct step_f32 *s, const struct step_f32_coeffs *c, float extra)
+#define REST_LEAST 1e-6f /* of a step: nothing happens in what is left then */
+#define NOT_HERE (-1.0f)
+
+/* A stretch of the step without a change of contact, on which y is known. Places on it run from 0 to 1. */
+struct stretch {
+    struct normal_f32_arc arc;
+    float fraction; /* of the step */
+    float at, y;    /* where the pad is */
+    float y_end;
+};
+
+/* One step at work. */
+struct work {
+    struct step_f32 *s;
+    const struct step_f32_coeffs *c;
+    struct event_f32_progress *progress;
+    struct stretch stretch;
+};
+
+static float force_of(const struct work *work, float y) { return normal_f32_force(&work->s->normal, y); }
+
+/* The way from here to a place on the stretch, as a fraction of the step. */
+static float fraction_to(const struct work *work, float place)
 {
-    const float need = c->damping * s->disc + c->stiffness * s->x + extra;
-    const float limit = c->friction * normal_f32_force(&s->normal, s->normal.y);
+    return work->stretch.fraction * (place - work->stretch.at);
+}
+
+/* Books the way to a place, where y is as given, and goes there. */
+static void move_to(struct work *work, float place, float y)
+{
+    const float fraction = fraction_to(work, place);
+
+    if (work->s->mode == PLANT_STICK) {
+        work->progress->stick += fraction;
+    } else if (work->s->mode == PLANT_SLIP_MINUS) {
+        work->progress->slip_minus += fraction;
+    }
+    work->stretch.at = place;
+    work->stretch.y = y;
+    work->progress->is_lifted = work->progress->is_lifted || y < 0.0f;
+}
+
+/* At vr = 0 under the contact force p the pad sticks if friction can hold it; otherwise it slips to the side that the need
+ * pulls it to. The same test serves entry and exit: static and kinetic friction are equal at vr = 0. */
+static int8_t regime_at_rest(const struct step_f32 *s, const struct step_f32_coeffs *c, float p, float extra)
+{
+    const float need = stick_need(c, s->x, s->disc) + extra;
+    const float limit = c->whole.friction * p;
 
     if (need <= limit && -need <= limit) {
         return PLANT_STICK;
@@ -21,59 +62,71 @@ static int8_t regime_at_rest(const struct step_f32 *s, const struct step_f32_coe
 void event_f32_set_speed(struct step_f32 *s, const struct step_f32_coeffs *c, float speed)
 {
     const float change = speed - s->disc;
+    const float p = normal_f32_force(&s->normal, s->normal.y);
 
     s->disc = speed;
-    if (s->mode == PLANT_STICK && regime_at_rest(s, c, change / c->normal.step) == PLANT_STICK) {
+    if (s->mode == PLANT_STICK && regime_at_rest(s, c, p, change) == PLANT_STICK) {
         s->v = speed;
         return;
     }
     if (s->v != speed) {
         s->mode = s->v < speed ? PLANT_SLIP_PLUS : PLANT_SLIP_MINUS;
     } else {
-        s->mode = regime_at_rest(s, c, 0.0f);
+        s->mode = regime_at_rest(s, c, p, 0.0f);
     }
 }
 
-/* Books a piece that has been gone through. */
-static void advance(struct step_f32 *s, struct event_f32_progress *progress, const struct normal_f32_piece *piece,
-                    float duration)
+/* --- Slip ---------------------------------------------------------------------------------------------------------- */
+
+/* The factors of the way from here to a place; the whole step has them ready. */
+static const struct slip_f32_factors *take_part(const struct work *work, float place, struct slip_f32_factors *part)
 {
-    if (s->mode == PLANT_STICK) {
-        progress->stick += duration;
-    } else if (s->mode == PLANT_SLIP_MINUS) {
-        progress->slip_minus += duration;
+    const float fraction = fraction_to(work, place);
+
+    if (fraction == 1.0f) {
+        return &work->c->whole;
     }
-    normal_f32_move(&s->normal, piece);
-    progress->rest -= duration;
-    progress->is_whole = false;
+    *part = slip_f32_take_part(&work->c->whole, fraction);
+    return part;
 }
 
-/* Looks for vr = 0 in a slip piece, also for a dip below 0 and back. Returns the place in (0, 1], 0 for "at the start",
- * or a negative number for "not in this piece". */
-static float find_crossing(const struct step_f32 *s, const struct step_f32_coeffs *c,
-                           const struct normal_f32_piece *piece, float duration, float a1, const struct slip_end *end)
+/* From here to the end of the stretch. */
+static void slip(const struct work *work, const struct slip_f32_factors *f, struct slip_f32_end *end)
 {
+    const struct step_f32 *s = work->s;
+    const struct stretch *stretch = &work->stretch;
+    const float middle = force_of(work, normal_f32_arc_y(&stretch->arc, 0.5f * (stretch->at + 1.0f)));
+    const struct normal_f32_piece piece = {
+        .p1 = force_of(work, stretch->y), .p2 = middle, .p3 = middle, .p4 = force_of(work, stretch->y_end)};
+
+    slip_f32_go(f, s->disc, s->mode, s->x, s->v, &piece, end, work->c->has_floor);
+}
+
+/* Looks for vr = 0 in a slip piece that reaches to the end of the stretch, also for a dip below 0 and back. Returns its
+ * place on the piece in (0, 1], 0 for "at the start", or NOT_HERE; *last is then the increment at the end. */
+static float find_crossing(const struct work *work, const struct slip_f32_factors *f, const struct slip_f32_end *end,
+                           float *last)
+{
+    const struct step_f32 *s = work->s;
     const float f0 = signed_by(s->mode, s->disc - s->v);
     const float f1 = signed_by(s->mode, s->disc - end->v);
-    const float d0 = -signed_by(s->mode, a1) * duration;
+    const float d0 = -signed_by(s->mode, end->first);
     struct hermite_f32 vr;
     float upper = 1.0f;
-    float p_end;
-    float d1;
 
     if (stays_clear(f0, d0, f1)) {
-        return -1.0f;
+        return NOT_HERE;
     }
-    p_end = normal_f32_force(&s->normal, piece->y);
-    d1 = -signed_by(s->mode, acceleration(c, s->disc, s->mode, s->x + end->dx, end->v, p_end)) * duration;
-    vr = hermite_f32_make(f0, d0, f1, d1);
+    *last = slip_f32_increment(f, slip_f32_drive(f, s->disc, s->mode), s->mode, s->x + end->dx, end->v,
+                               force_of(work, work->stretch.y_end), work->c->has_floor);
+    vr = hermite_f32_make(f0, d0, f1, -signed_by(s->mode, *last));
     if (f1 >= 0.0f) {
-        if (d1 <= 0.0f) {
-            return -1.0f;
+        if (signed_by(s->mode, *last) >= 0.0f) {
+            return NOT_HERE;
         }
         upper = hermite_f32_minimum(&vr);
         if (hermite_f32_value(&vr, upper) >= 0.0f) {
-            return -1.0f;
+            return NOT_HERE;
         }
     }
     if (f0 <= 0.0f) {
@@ -82,142 +135,200 @@ static float find_crossing(const struct step_f32 *s, const struct step_f32_coeff
     return hermite_f32_root(&vr, upper);
 }
 
-static void slip_piece(struct step_f32 *s, const struct step_f32_coeffs *c, struct event_f32_progress *progress,
-                       struct normal_f32_piece *piece, float duration)
+/* Change of x up to where the pad meets the disc, at a place of the piece. v is the cubic on which that place was found, so
+ * its mean up to there is exactly the mean of its ends less a twelfth of what its slope changes by. */
+static float dx_at_crossing(const struct step_f32 *s, const struct slip_f32_factors *f, const struct slip_f32_end *end,
+                            float last, float place)
 {
-    const float a1 = acceleration(c, s->disc, s->mode, s->x, s->v, piece->p1);
-    struct slip_end end;
+    const float rise = end->v - s->v;
+    const float square = 0.5f * rise - (1.0f / 6.0f) * (2.0f * end->first + last);
+    const float cube = 0.25f * (end->first + last) - 0.5f * rise;
+
+    return f->travel * place * (0.5f * (s->v + s->disc) - place * place * (square + place * cube));
+}
+
+/* Slips on to the end of the stretch or to vr = 0. known is the end of a piece that is a whole step, NULL if it has not
+ * been computed. */
+static void slip_piece(struct work *work, const struct slip_f32_end *known)
+{
+    struct step_f32 *s = work->s;
+    struct slip_f32_factors part;
+    const struct slip_f32_factors *factors = take_part(work, 1.0f, &part);
+    struct slip_f32_end end;
+    float last;
     float place;
 
-    slip(s, c, piece, duration, a1, &end);
-    place = find_crossing(s, c, piece, duration, a1, &end);
-    if (place >= 0.0f && progress->events == PLANT_EVENTS_MAX) {
-        progress->is_capped = true;
-        place = -1.0f;
+    if (known != NULL) {
+        end = *known;
+    } else {
+        slip(work, factors, &end);
     }
-    if (BASE_LIKELY(!(place >= 0.0f))) { /* NaN goes on too, to be caught by the domain check */
-        advance(s, progress, piece, duration);
+    place = find_crossing(work, factors, &end, &last);
+    if (place >= 0.0f && work->progress->events == PLANT_EVENTS_MAX) {
+        work->progress->is_capped = true;
+        place = NOT_HERE;
+    }
+    if (!(place >= 0.0f)) { /* NaN goes on too, to be caught by the domain check */
+        move_to(work, 1.0f, work->stretch.y_end);
         move_x(s, end.dx);
         s->v = end.v;
         return;
     }
-    progress->events++;
+    work->progress->events++;
     if (place > 0.0f) {
-        const float part = place * duration;
+        const float meeting = work->stretch.at + place * (1.0f - work->stretch.at);
 
-        normal_f32_look(&s->normal, &c->normal, part, false, piece);
-        slip(s, c, piece, part, a1, &end);
-        advance(s, progress, piece, part);
-        move_x(s, end.dx);
+        move_x(s, dx_at_crossing(s, factors, &end, last, place));
+        move_to(work, meeting, normal_f32_arc_y(&work->stretch.arc, meeting));
     }
     s->v = s->disc;
-    s->mode = regime_at_rest(s, c, 0.0f);
+    s->mode = regime_at_rest(s, work->c, force_of(work, work->stretch.y), 0.0f);
 }
 
-/* Slope of the contact force with time: 0 where the force is held at 0. */
-static float force_rate(const struct normal_f32 *normal, float y, float w)
+/* --- Stick --------------------------------------------------------------------------------------------------------- */
+
+static float carried(const struct work *work, float place)
 {
-    return normal_f32_force(normal, y) == y ? w : 0.0f;
+    return fraction_to(work, place) * (work->c->whole.travel * work->s->disc);
 }
 
-static void stick_piece(struct step_f32 *s, const struct step_f32_coeffs *c, struct event_f32_progress *progress,
-                        struct normal_f32_piece *piece, float duration)
+/* Change of h mu P along the rest of the stretch, as it goes at a place of it: 0 where the force is held at 0. */
+static float limit_change(const struct work *work, float place, float y)
 {
-    const float dx = s->disc * duration;
-    int8_t side;
-    const float spare_end = stick_spare(s, c, s->x + dx, normal_f32_force(&s->normal, piece->y), &side);
-    float need_start;
-    float spare_start;
-    float part = 0.0f;
+    const struct normal_f32_arc *arc = &work->stretch.arc;
+    const float slope = arc->slope + place * (2.0f * arc->square + 3.0f * place * arc->cube);
 
-    if (BASE_LIKELY(spare_end >= 0.0f) || progress->events == PLANT_EVENTS_MAX) {
-        progress->is_capped = progress->is_capped || spare_end < 0.0f;
-        advance(s, progress, piece, duration);
+    return force_of(work, y) == y ? work->c->whole.friction * slope * (1.0f - work->stretch.at) : 0.0f;
+}
+
+/* Is carried on to the end of the stretch or to where the springs win. */
+static void stick_piece(struct work *work)
+{
+    struct step_f32 *s = work->s;
+    const struct slip_f32_factors *whole = &work->c->whole;
+    const float dx = carried(work, 1.0f);
+    const float need_end = stick_need(work->c, s->x + dx, s->disc);
+    const int8_t side = need_end > 0.0f ? PLANT_SLIP_PLUS : PLANT_SLIP_MINUS;
+    const float spare_end = whole->friction * force_of(work, work->stretch.y_end) - signed_by(side, need_end);
+    float place = work->stretch.at;
+    float spare;
+
+    if (spare_end >= 0.0f || work->progress->events == PLANT_EVENTS_MAX) {
+        work->progress->is_capped = work->progress->is_capped || spare_end < 0.0f;
+        move_to(work, 1.0f, work->stretch.y_end);
         move_x(s, dx);
         return;
     }
-    progress->events++;
-    need_start = c->damping * s->disc + c->stiffness * s->x;
-    spare_start = c->friction * piece->p1 - signed_by(side, need_start);
-    if (spare_start > 0.0f) {
-        const float pull = signed_by(side, c->stiffness * s->disc);
-        const float rate_start = c->friction * force_rate(&s->normal, s->normal.y, s->normal.w) - pull;
-        const float rate_end = c->friction * force_rate(&s->normal, piece->y, piece->w) - pull;
-        const struct hermite_f32 spare =
-            hermite_f32_make(spare_start, rate_start * duration, spare_end, rate_end * duration);
+    work->progress->events++;
+    spare = whole->friction * force_of(work, work->stretch.y) - signed_by(side, stick_need(work->c, s->x, s->disc));
+    if (spare > 0.0f) {
+        const float pull = signed_by(side, whole->spring * dx);
+        const struct hermite_f32 cubic =
+            hermite_f32_make(spare, limit_change(work, place, work->stretch.y) - pull, spare_end,
+                             limit_change(work, 1.0f, work->stretch.y_end) - pull);
 
-        part = hermite_f32_root(&spare, 1.0f) * duration;
+        place += hermite_f32_root(&cubic, 1.0f) * (1.0f - place);
     }
-    if (part > 0.0f) {
-        normal_f32_look(&s->normal, &c->normal, part, false, piece);
-        move_x(s, s->disc * part);
-        advance(s, progress, piece, part);
+    if (place > work->stretch.at) {
+        move_x(s, carried(work, place));
+        move_to(work, place, normal_f32_arc_y(&work->stretch.arc, place));
     }
     s->mode = side;
 }
 
-/* Where the spring lets go or takes hold (contact lift) the piece ends there. Returns the piece's duration. */
-static float cut_at_contact(const struct step_f32 *s, const struct step_f32_coeffs *c,
-                            struct event_f32_progress *progress, struct normal_f32_piece *piece, bool *changes)
+/* --- Contact ------------------------------------------------------------------------------------------------------- */
+
+/* Where on a stretch that starts here the spring lets go or takes hold (contact lift), or NOT_HERE. */
+static float find_contact_change(const struct work *work, const struct normal_f32_piece *piece)
 {
-    const struct normal_f32 *normal = &s->normal;
+    const struct normal_f32 *normal = &work->s->normal;
     const float sign = normal->is_lifted ? -1.0f : 1.0f;
-    const float duration = progress->rest;
-    float part;
+    const float duration = work->stretch.fraction * work->c->normal.step;
+    struct hermite_f32 gap;
 
-    *changes = false;
-    if (c->normal.contact != CONTACT_LIFT || normal->is_steady_from_rest || sign * piece->y >= 0.0f ||
-        progress->contacts == PLANT_CONTACTS_MAX) {
-        return duration;
+    if (work->c->normal.contact != CONTACT_LIFT || normal->is_steady_from_rest || sign * piece->y >= 0.0f ||
+        work->progress->contacts == PLANT_CONTACTS_MAX) {
+        return NOT_HERE;
     }
-    {
-        struct hermite_f32 gap = hermite_f32_make(sign * normal->y, sign * normal->w * duration, sign * piece->y,
-                                                  sign * piece->w * duration);
-
-        part = gap.value0 > 0.0f   ? hermite_f32_root(&gap, 1.0f) * duration
-               : gap.slope0 > 0.0f ? hermite_f32_root_after_start(&gap) * duration
-                                   : 0.0f;
-    }
-    *changes = true;
-    if (part > 0.0f) {
-        normal_f32_look(normal, &c->normal, part, false, piece);
-    }
-    return part;
+    gap = hermite_f32_make(sign * normal->y, sign * normal->w * duration, sign * piece->y, sign * piece->w * duration);
+    return gap.value0 > 0.0f   ? hermite_f32_root(&gap, 1.0f)
+           : gap.slope0 > 0.0f ? hermite_f32_root_after_start(&gap)
+                               : 0.0f;
 }
 
-static void change_contact(struct step_f32 *s, const struct step_f32_coeffs *c, struct event_f32_progress *progress)
+/* Opens a stretch over the rest of the step, or up to the next change of contact. Returns true if it ends with one. */
+static bool open_stretch(struct work *work, float rest, struct normal_f32_piece *piece)
 {
-    progress->contacts++;
+    struct stretch *stretch = &work->stretch;
+    const struct normal_f32 *normal = &work->s->normal;
+    const struct normal_f32_coeffs *coeffs = &work->c->normal;
+    float place;
+
+    stretch->at = 0.0f;
+    stretch->y = normal->y;
+    stretch->fraction = rest;
+    place = find_contact_change(work, piece);
+    if (place > 0.0f) {
+        stretch->fraction = rest * place;
+        normal_f32_look(normal, coeffs, stretch->fraction * coeffs->step, false, piece);
+    } else if (place == 0.0f) {
+        stretch->fraction = 0.0f;
+        *piece = (struct normal_f32_piece){.y = normal->y, .w = normal->w};
+    }
+    stretch->y_end = piece->y;
+    stretch->arc = normal_f32_arc_make(normal, stretch->fraction * coeffs->step, piece);
+    return place >= 0.0f;
+}
+
+static void change_contact(struct work *work)
+{
+    struct step_f32 *s = work->s;
+
+    work->progress->contacts++;
     s->normal.y = 0.0f;
     s->normal.y_rest = 0.0f;
     s->normal.is_lifted = s->normal.w < 0.0f;
     if (s->normal.is_lifted && s->mode == PLANT_STICK) {
-        s->mode = regime_at_rest(s, c, 0.0f);
+        s->mode = regime_at_rest(s, work->c, 0.0f, 0.0f);
     }
 }
 
-void event_f32_step(struct step_f32 *s, const struct step_f32_coeffs *c, struct event_f32_progress *progress)
+/* --- The step ------------------------------------------------------------------------------------------------------- */
+
+void event_f32_step(struct step_f32 *s, const struct step_f32_coeffs *c, struct event_f32_progress *progress,
+                    const struct event_f32_attempt *attempt)
 {
-    const float least = 1e-6f * c->normal.step;
+    struct work work = {.s = s, .c = c, .progress = progress};
+    const struct slip_f32_end *known = NULL;
+    struct normal_f32_piece piece;
+    float rest = 1.0f;
+    bool contact_changes;
 
-    while (progress->rest > least) {
-        struct normal_f32_piece piece;
-        float duration;
-        bool contact_changes;
-        const unsigned events = progress->events;
-
-        normal_f32_look(&s->normal, &c->normal, progress->rest, progress->is_whole, &piece);
-        duration = cut_at_contact(s, c, progress, &piece, &contact_changes);
-        if (duration > 0.0f) {
-            if (s->mode == PLANT_STICK) {
-                stick_piece(s, c, progress, &piece, duration);
-            } else {
-                slip_piece(s, c, progress, &piece, duration);
-            }
-        }
-        if (contact_changes && progress->events == events) {
-            change_contact(s, c, progress);
-        }
-        progress->is_lifted = progress->is_lifted || s->normal.y < 0.0f;
+    if (attempt != NULL) {
+        piece.y = attempt->y;
+        piece.w = attempt->w;
+        piece.dy = attempt->dy;
+        piece.dw = attempt->dw;
+        known = attempt->end;
+    } else {
+        normal_f32_look(&s->normal, &c->normal, c->normal.step, true, &piece);
     }
+    do {
+        contact_changes = open_stretch(&work, rest, &piece);
+        known = contact_changes ? NULL : known;
+        while (fraction_to(&work, 1.0f) > REST_LEAST) {
+            if (s->mode == PLANT_STICK) {
+                stick_piece(&work);
+            } else {
+                slip_piece(&work, known);
+            }
+            known = NULL;
+        }
+        normal_f32_move(&s->normal, &piece);
+        rest -= work.stretch.fraction;
+        if (contact_changes) {
+            change_contact(&work);
+            normal_f32_look(&s->normal, &c->normal, rest * c->normal.step, false, &piece);
+        }
+    } while (contact_changes && rest > REST_LEAST);
 }

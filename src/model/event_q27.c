@@ -66,7 +66,7 @@ static const struct slip_q27_factors *take_part(const struct work *work, int32_t
     if (fraction == ONE) {
         return whole;
     }
-    slip_q27_take_part(whole, fraction, work->c->has_floor, part);
+    slip_q27_take_part(whole, fraction, work->c->has_floor, work->tell != NULL, part);
     return part;
 }
 
@@ -80,14 +80,14 @@ static struct slip_q27_view view_from(const struct work *work, const struct slip
     return view;
 }
 
-/* From here to a place on the stretch, where y is as given. */
-BASE_INLINE void slip(const struct work *work, const struct slip_q27_factors *f, const struct slip_q27_view *view,
-                      int32_t place, int32_t y, struct slip_q27_end *end)
+/* From here to the end of the stretch. */
+static void slip(const struct work *work, const struct slip_q27_factors *f, const struct slip_q27_view *view,
+                 struct slip_q27_end *end)
 {
     const int32_t at = work->stretch.at;
-    const int32_t middle = force_of(work, normal_q27_arc_y(&work->stretch.arc, at + (place - at) / 2));
+    const int32_t middle = force_of(work, normal_q27_arc_y(&work->stretch.arc, at + (ONE - at) / 2));
     const struct normal_q27_piece piece = {
-        .p1 = force_of(work, work->s->normal.y), .p2 = middle, .p3 = middle, .p4 = force_of(work, y)};
+        .p1 = force_of(work, work->s->normal.y), .p2 = middle, .p3 = middle, .p4 = force_of(work, work->stretch.y_end)};
 
     slip_q27_any_go(f, view, &work->s->rest, &piece, end, work->c->has_floor, work->tell);
 }
@@ -122,27 +122,40 @@ void event_q27_set_speed(struct step_q27 *s, const struct step_q27_coeffs *c, in
     }
 }
 
-/* Looks for vr = 0 in a slip piece that reaches to the end of the stretch, also for a dip below 0 and back. Returns its
- * place on the piece in (0, 1], 0 for "at the start", or NOT_HERE. */
-static int32_t find_crossing(const struct work *work, const struct slip_q27_factors *f,
-                             const struct slip_q27_view *view, const struct slip_q27_end *end)
+/* A slip piece that reaches to the end of the stretch. */
+struct slip_piece {
+    const struct slip_q27_factors *factors;
+    struct slip_q27_view view;
+    struct slip_q27_end end;
+    int32_t last; /* increment at its end; known once a crossing has been found */
+};
+
+/* vr and its changes along a piece. Wide ones may exceed a word. */
+static struct hermite_q27 make_vr(const struct work *work, int64_t f0, int32_t d0, int64_t f1, int32_t d1)
 {
-    const int64_t f0 = (int64_t)view->disc - view->v;
-    const int64_t f1 = (int64_t)view->disc - end->v;
-    const int64_t d0 = -(int64_t)end->first;
+    return work->tell == NULL ? hermite_q27_make((int32_t)f0, d0, (int32_t)f1, d1)
+                              : hermite_q27_make_wide(f0, d0, f1, d1);
+}
+
+/* Looks for vr = 0, also for a dip below 0 and back. Returns its place on the piece in (0, 1], 0 for "at the start", or
+ * NOT_HERE. */
+static int32_t find_crossing(const struct work *work, struct slip_piece *piece)
+{
+    const int64_t f0 = (int64_t)piece->view.disc - piece->view.v;
+    const int64_t f1 = (int64_t)piece->view.disc - piece->end.v;
+    const int32_t d0 = -piece->end.first;
     struct hermite_q27 vr;
     int32_t upper = HERMITE_Q27_ONE;
-    int64_t d1;
 
     /* A curve that stays above its first tangent stays above 0 when the tangent does. */
     if (f1 >= 0 && (d0 >= 0 || f0 + d0 > 0 || f0 <= 0)) {
         return NOT_HERE;
     }
-    d1 = -(int64_t)slip_q27_any_increment(f, view, end->x, end->v, force_of(work, work->stretch.y_end),
-                                          work->c->has_floor, work->tell);
-    vr = hermite_q27_make(f0, d0, f1, d1);
+    piece->last = slip_q27_any_increment(piece->factors, &piece->view, piece->end.x, piece->end.v,
+                                         force_of(work, work->stretch.y_end), work->c->has_floor, work->tell);
+    vr = make_vr(work, f0, d0, f1, -piece->last);
     if (f1 >= 0) {
-        if (d1 <= 0) {
+        if (piece->last >= 0) {
             return NOT_HERE;
         }
         upper = hermite_q27_minimum(&vr);
@@ -156,6 +169,22 @@ static int32_t find_crossing(const struct work *work, const struct slip_q27_fact
     return hermite_q27_root(&vr, upper);
 }
 
+/* x where the pad meets the disc, at a place of the piece. v is the cubic on which that place was found, so its mean up to
+ * there is exactly the mean of its ends less a twelfth of what its slope changes by. */
+static int32_t x_at_crossing(const struct work *work, const struct slip_piece *piece, int32_t place)
+{
+    const struct slip_q27_view *view = &piece->view;
+    const int32_t first = piece->end.first;
+    const int32_t half_rise = (int32_t)fixed_floor((int64_t)piece->end.v - view->v, 1u);
+    const int32_t square = half_rise - (int32_t)fixed_floor(SUM_Q27_SIXTH * (2 * (int64_t)first + piece->last), 32u);
+    const int32_t cube = (int32_t)fixed_floor((int64_t)first + piece->last, 2u) - half_rise;
+    const int32_t bend = fixed_part_near(fixed_part_near(square + fixed_part_near(cube, place), place), place);
+    const int64_t mean = fixed_floor((int64_t)view->v + view->disc, 1u) - bend;
+    const int32_t travel = fixed_part_near(piece->factors->travel, place);
+
+    return fixed_saturate_and_tell(view->x + fixed_round_up(travel * mean, 32u), &work->s->is_saturated);
+}
+
 /* Slips on to the end of the stretch or to vr = 0. known is the end of a piece that is a whole step, NULL if it has not
  * been computed. */
 static void slip_piece(struct work *work, const struct slip_q27_end *known)
@@ -163,38 +192,34 @@ static void slip_piece(struct work *work, const struct slip_q27_end *known)
     struct step_q27 *s = work->s;
     const int8_t side = s->mode;
     struct slip_q27_factors part;
-    const struct slip_q27_factors *factors = take_part(work, ONE, &part);
-    struct slip_q27_view view = view_from(work, factors, side);
-    struct slip_q27_end end;
+    struct slip_piece piece;
     int32_t place;
 
+    piece.factors = take_part(work, ONE, &part);
+    piece.view = view_from(work, piece.factors, side);
     if (known != NULL) {
-        end = *known;
+        piece.end = *known;
     } else {
-        slip(work, factors, &view, ONE, work->stretch.y_end, &end);
+        slip(work, piece.factors, &piece.view, &piece.end);
     }
-    place = find_crossing(work, factors, &view, &end);
+    place = find_crossing(work, &piece);
     if (place != NOT_HERE && work->progress->events == PLANT_EVENTS_MAX) {
         work->progress->is_capped = true;
         place = NOT_HERE;
     }
     if (place == NOT_HERE) {
         move_to(work, ONE, work->stretch.y_end);
-        s->x = signed_by(side, end.x);
-        s->v = signed_by(side, end.v);
-        s->rest = end.rest;
+        s->x = signed_by(side, piece.end.x);
+        s->v = signed_by(side, piece.end.v);
+        s->rest = piece.end.rest;
         return;
     }
     work->progress->events++;
-    place = place_within(work, place);
-    if (place > work->stretch.at) {
-        const int32_t y = normal_q27_arc_y(&work->stretch.arc, place);
+    if (place > 0) {
+        const int32_t meeting = place_within(work, place);
 
-        factors = take_part(work, place, &part);
-        view = view_from(work, factors, side);
-        slip(work, factors, &view, place, y, &end);
-        move_to(work, place, y);
-        s->x = signed_by(side, end.x);
+        s->x = signed_by(side, x_at_crossing(work, &piece, place));
+        move_to(work, meeting, normal_q27_arc_y(&work->stretch.arc, meeting));
     }
     s->v = s->disc;
     event_q27_enter(s, regime_at_rest(s, work->c, 0));
@@ -202,7 +227,7 @@ static void slip_piece(struct work *work, const struct slip_q27_end *known)
 
 static int32_t carried(const struct work *work, int32_t place)
 {
-    return fixed_product(fixed_part(work->c->wide.travel, fraction_to(work, place)), work->s->disc, 32u);
+    return fixed_product(fixed_part_near(work->c->wide.travel, fraction_to(work, place)), work->s->disc, 32u);
 }
 
 /* Change of h mu P along the rest of the stretch, as it goes at a place of it: 0 where the force is held at 0. */
@@ -212,13 +237,15 @@ static int64_t limit_change(const struct work *work, int32_t place, int32_t y)
         return 0;
     }
     return (int64_t)work->c->wide.friction *
-           fixed_part(normal_q27_arc_slope(&work->stretch.arc, place), ONE - work->stretch.at);
+           fixed_part_near(normal_q27_arc_slope(&work->stretch.arc, place), ONE - work->stretch.at);
 }
+
+/* What of a sum in Q55 an event is located by. */
+static int32_t upper_word(int64_t sum) { return (int32_t)fixed_floor(sum, 32u); }
 
 /* Where on the rest of the stretch friction can no longer hold the pad; what it can spare at the end is negative. */
 static int32_t find_exit(const struct work *work, int8_t side, int32_t travel, int64_t spare_end)
 {
-    enum { UNIT_BITS = 4 }; /* taken off so that the cubic's coefficients fit */
     const struct step_q27_coeffs *c = work->c;
     const int64_t need = event_q27_need(c, work->s->x, work->s->disc);
     const int64_t spare = (int64_t)c->wide.friction * force_of(work, work->s->normal.y) - (side < 0 ? -need : need);
@@ -230,8 +257,7 @@ static int32_t find_exit(const struct work *work, int8_t side, int32_t travel, i
     if (spare <= 0) {
         return 0;
     }
-    cubic = hermite_q27_make(fixed_floor(spare, UNIT_BITS), fixed_floor(rise_start, UNIT_BITS),
-                             fixed_floor(spare_end, UNIT_BITS), fixed_floor(rise_end, UNIT_BITS));
+    cubic = hermite_q27_make(upper_word(spare), upper_word(rise_start), upper_word(spare_end), upper_word(rise_end));
     return hermite_q27_root(&cubic, HERMITE_Q27_ONE);
 }
 
@@ -338,8 +364,9 @@ void event_q27_step(struct step_q27 *s, const struct step_q27_coeffs *c, struct 
     work.progress = progress;
     work.tell = attempt != NULL ? NULL : &s->is_saturated;
     if (attempt != NULL) {
-        piece = attempt->piece;
-        known = &attempt->end;
+        piece.y = attempt->y;
+        piece.w = attempt->w;
+        known = attempt->end;
     } else {
         normal_q27_look(&s->normal, &c->normal, &piece, &s->is_saturated);
     }

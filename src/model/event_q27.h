@@ -15,8 +15,8 @@ struct event_q27_progress {
 /* What the fast path knows of a whole step when it finds that it does not serve: the normal motion, and where the pad
  * slips, its end as seen from its side. */
 struct event_q27_attempt {
-    struct normal_q27_piece piece;
-    struct slip_q27_end end;
+    int32_t y, w;                   /* at its end */
+    const struct slip_q27_end *end; /* NULL if the pad sticks */
 };
 
 /* Without an attempt the step saturates where it must; with one it is known to stay within the fine arithmetic. */
@@ -36,14 +36,18 @@ void event_q27_set_speed(struct step_q27 *s, const struct step_q27_coeffs *c, in
 /* h times the force that would hold the pad on the disc, Q55: C v0 + K x. Exact, and so are the decisions on it. */
 BASE_INLINE int64_t event_q27_need(const struct step_q27_coeffs *c, int32_t x, int32_t disc)
 {
-    return -((int64_t)c->drag * disc + (int64_t)c->wide.spring * x);
+    struct fixed_sum sum = fixed_sum_of(c->drag, disc);
+
+    fixed_sum_add(&sum, c->wide.spring, x);
+    return -fixed_sum_whole(&sum);
 }
 
 /* Can friction under the contact force p hold the pad, against an extra need? */
 BASE_INLINE bool event_q27_is_held(const struct step_q27_coeffs *c, int32_t x, int32_t disc, int32_t p, int64_t extra)
 {
     const int64_t need = event_q27_need(c, x, disc) + extra;
-    const int64_t limit = (int64_t)c->wide.friction * p;
+    const struct fixed_sum holding = fixed_sum_of(c->wide.friction, p);
+    const int64_t limit = fixed_sum_whole(&holding);
 
     return need <= limit && -need <= limit;
 }

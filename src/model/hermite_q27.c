@@ -3,30 +3,38 @@
 
 #include <stdbool.h>
 
-enum { NEWTON_PASSES = 2, COEFFICIENT_BITS = 28 };
+enum { NEWTON_PASSES = 2, INPUT_BITS = 25 };
 
 static uint64_t magnitude(int64_t value) { return value < 0 ? 0u - (uint64_t)value : (uint64_t)value; }
 
-static int32_t shifted(int64_t value, int down)
+/* The sign aside, all bits of a word that say something. */
+static uint32_t significant(int32_t value) { return (uint32_t)(value ^ fixed_floor_word(value, 31u)); }
+
+static int32_t scaled(int32_t value, unsigned up)
 {
-    return (int32_t)(down > 0 ? fixed_shift_right(value, (unsigned)down) : value * ((int64_t)1 << -down));
+    return fixed_floor_word((int32_t)((uint32_t)value << up), 31u - INPUT_BITS);
 }
 
-static struct hermite_q27 normalise(int64_t value0, int64_t slope0, int64_t square, int64_t cube)
+struct hermite_q27 hermite_q27_make(int32_t value0, int32_t slope0, int32_t value1, int32_t slope1)
 {
-    const uint64_t all = magnitude(value0) | magnitude(slope0) | magnitude(square) | magnitude(cube);
-    const int down = (int)fixed_bits(all) - COEFFICIENT_BITS;
-    const struct hermite_q27 f = {shifted(value0, down), shifted(slope0, down), shifted(square, down),
-                                  shifted(cube, down)};
+    const uint32_t all = significant(value0) | significant(slope0) | significant(value1) | significant(slope1);
+    const unsigned up = BASE_LEADING_ZEROS(all | 1u) - 1u;
+    const int32_t start = scaled(value0, up);
+    const int32_t d0 = scaled(slope0, up);
+    const int32_t d1 = scaled(slope1, up);
+    const int32_t rise = scaled(value1, up) - start;
+    const struct hermite_q27 f = {start, d0, 3 * rise - 2 * d0 - d1, d0 + d1 - 2 * rise};
 
     return f;
 }
 
-struct hermite_q27 hermite_q27_make(int64_t value0, int64_t slope0, int64_t value1, int64_t slope1)
+struct hermite_q27 hermite_q27_make_wide(int64_t value0, int64_t slope0, int64_t value1, int64_t slope1)
 {
-    const int64_t rise = value1 - value0;
+    const unsigned bits = fixed_bits(magnitude(value0) | magnitude(slope0) | magnitude(value1) | magnitude(slope1));
+    const unsigned down = bits > 30u ? bits - 30u : 0u;
 
-    return normalise(value0, slope0, 3 * rise - 2 * slope0 - slope1, slope0 + slope1 - 2 * rise);
+    return hermite_q27_make((int32_t)fixed_floor(value0, down), (int32_t)fixed_floor(slope0, down),
+                            (int32_t)fixed_floor(value1, down), (int32_t)fixed_floor(slope1, down));
 }
 
 /* Where the straight line from value0 > 0 at 0 to end <= 0 at upper meets 0. */
@@ -89,8 +97,8 @@ int32_t hermite_q27_root_after_start(const struct hermite_q27 *f)
 
 int32_t hermite_q27_minimum(const struct hermite_q27 *f)
 {
-    const struct hermite_q27 descent =
-        normalise(-(int64_t)f->slope0, -2 * (int64_t)f->square, -3 * (int64_t)f->cube, 0);
+    const struct hermite_q27 descent = {-fixed_floor_word(f->slope0, 2u), -fixed_floor_word(f->square, 1u),
+                                        -fixed_floor_word(3 * f->cube, 2u), 0};
 
     return hermite_q27_root(&descent, HERMITE_Q27_ONE);
 }

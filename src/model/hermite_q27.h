@@ -1,5 +1,5 @@
 /* The cubic of hermite_f32.h in integers. Only its roots and its sign are wanted, so its values may have any unit: make
- * shifts all four coefficients by the same number of bits until the largest takes 28. Places are in Q30. [ANY, pure] */
+ * shifts all four arguments by the same number of bits until the largest takes 25. Places are in Q30. [ANY, pure] */
 #ifndef MODEL_HERMITE_Q27_H
 #define MODEL_HERMITE_Q27_H
 
@@ -10,11 +10,13 @@
 #define HERMITE_Q27_ONE (1 << 30) /* t = 1 */
 
 struct hermite_q27 {
-    int32_t value0, slope0, square, cube; /* f = value0 + t (slope0 + t (square + t cube)), each within 2^28 */
+    int32_t value0, slope0, square,
+        cube; /* f = value0 + t (slope0 + t (square + t cube)), each within 2^25, 2^25, 9 2^25, 6 2^25 */
 };
 
-/* The arguments share one unit and lie within 2^58. */
-struct hermite_q27 hermite_q27_make(int64_t value0, int64_t slope0, int64_t value1, int64_t slope1);
+/* The arguments share one unit and are any words; or lie within 2^62. */
+struct hermite_q27 hermite_q27_make(int32_t value0, int32_t slope0, int32_t value1, int32_t slope1);
+struct hermite_q27 hermite_q27_make_wide(int64_t value0, int64_t slope0, int64_t value1, int64_t slope1);
 
 /* First root in (0, upper], for f(0) > 0 >= f(upper): secant start, two safeguarded Newton passes. */
 int32_t hermite_q27_root(const struct hermite_q27 *f, int32_t upper);
@@ -31,7 +33,7 @@ static inline int32_t hermite_q27_term(int32_t sum, int32_t factor, int32_t t)
     return sum + (int32_t)fixed_floor((int64_t)factor * t, 32u) * 4;
 }
 
-/* Four numbers within 2^28: no sum below exceeds 2^30. */
+/* No sum below exceeds 17 2^25. */
 static inline int32_t hermite_q27_value(const struct hermite_q27 *f, int32_t t)
 {
     return hermite_q27_term(f->value0, hermite_q27_term(f->slope0, hermite_q27_term(f->square, f->cube, t), t), t);

@@ -82,58 +82,21 @@ void normal_f32_set_load(struct normal_f32 *normal, const struct normal_f32_coef
     normal->is_steady_from_rest = false;
     normal->least_force = least_force(normal, coeffs);
     if (coeffs->has_phase) {
-        normal->cosine -= change * sine_cosine_f32(normal->phase);
-        normal->sine -= change * sine_f32(normal->phase);
+        normal->cosine -= change * sine_quarter_f32[SINE_GRID / 4u - normal->phase];
+        normal->sine -= change * sine_quarter_f32[normal->phase];
     }
 }
 
-static void look_rk4(const struct normal_f32 *normal, const struct normal_f32_coeffs *coeffs, float duration,
-                     struct normal_f32_piece *piece)
+/* Part of a step, or one without the spring, in closed form. */
+static void look_series(const struct normal_f32 *normal, const struct normal_f32_coeffs *coeffs, float duration,
+                        struct normal_f32_piece *piece)
 {
     const float spring = normal->is_lifted ? 0.0f : 1.0f;
-    const float half = 0.5f * duration;
-    const float sixth = duration * (1.0f / 6.0f);
-    const float y1 = normal->y;
-    const float w1 = normal->w;
-    const float a1 = normal->n - coeffs->damping * w1 - spring * y1;
-    const float y2 = y1 + half * w1;
-    const float w2 = w1 + half * a1;
-    const float a2 = normal->n - coeffs->damping * w2 - spring * y2;
-    const float y3 = y1 + half * w2;
-    const float w3 = w1 + half * a2;
-    const float a3 = normal->n - coeffs->damping * w3 - spring * y3;
-    const float y4 = y1 + duration * w3;
-    const float w4 = w1 + duration * a3;
-    const float a4 = normal->n - coeffs->damping * w4 - spring * y4;
-
-    piece->dy = sixth * (w1 + 2.0f * (w2 + w3) + w4);
-    piece->dw = sixth * (a1 + 2.0f * (a2 + a3) + a4);
-    piece->y = y1 + piece->dy;
-    piece->w = w1 + piece->dw;
-    piece->p1 = normal_f32_force(normal, y1);
-    piece->p2 = normal_f32_force(normal, y2);
-    piece->p3 = normal_f32_force(normal, y3);
-    piece->p4 = normal_f32_force(normal, y4);
-}
-
-static void look_exact(const struct normal_f32 *normal, const struct normal_f32_coeffs *coeffs, float duration,
-                       bool is_whole, struct normal_f32_piece *piece)
-{
     float middle;
+    float unused;
 
-    if (is_whole && !normal->is_lifted) {
-        const float d = normal->y - normal->n;
-
-        middle = coeffs->half.yy * d + coeffs->half.yw * normal->w;
-        piece->dy = coeffs->full.yy * d + coeffs->full.yw * normal->w;
-        piece->dw = coeffs->full.wy * d + coeffs->full.ww * normal->w;
-    } else {
-        const float spring = normal->is_lifted ? 0.0f : 1.0f;
-        float unused;
-
-        taylor(coeffs->damping, spring, normal->n, 0.5f * duration, normal->y, normal->w, &middle, &unused);
-        taylor(coeffs->damping, spring, normal->n, duration, normal->y, normal->w, &piece->dy, &piece->dw);
-    }
+    taylor(coeffs->damping, spring, normal->n, 0.5f * duration, normal->y, normal->w, &middle, &unused);
+    taylor(coeffs->damping, spring, normal->n, duration, normal->y, normal->w, &piece->dy, &piece->dw);
     piece->y = normal->y + piece->dy;
     piece->w = normal->w + piece->dw;
     piece->p1 = normal_f32_force(normal, normal->y);
@@ -145,22 +108,22 @@ static void look_exact(const struct normal_f32 *normal, const struct normal_f32_
 void normal_f32_look(const struct normal_f32 *normal, const struct normal_f32_coeffs *coeffs, float duration,
                      bool is_whole, struct normal_f32_piece *piece)
 {
-    if (coeffs->is_exact) {
-        look_exact(normal, coeffs, duration, is_whole, piece);
+    if (!coeffs->is_exact) {
+        normal_f32_look_rk4(normal, coeffs, duration, normal->is_lifted ? 0.0f : 1.0f, piece);
+        normal_f32_press(normal, piece);
+    } else if (is_whole && !normal->is_lifted) {
+        normal_f32_look_end(normal, &coeffs->full, piece);
+        normal_f32_look_middle(normal, coeffs, piece);
+        normal_f32_press(normal, piece);
     } else {
-        look_rk4(normal, coeffs, duration, piece);
+        look_series(normal, coeffs, duration, piece);
     }
 }
 
 bool normal_f32_close_step(struct normal_f32 *normal, const struct normal_f32_coeffs *coeffs)
 {
-    normal->phase += coeffs->phase_stride;
     if (coeffs->has_phase) {
-        const float cosine = sine_cosine_f32(normal->phase);
-        const float sine = sine_f32(normal->phase);
-
-        normal->y = normal->n + normal->cosine * cosine + normal->sine * sine;
-        normal->w = normal->sine * cosine - normal->cosine * sine;
+        normal_f32_at(normal, normal->phase, &normal->y, &normal->w);
     }
     if (normal->is_lifted && normal->y < -PLANT_GAP_MAX) {
         normal->y = -PLANT_GAP_MAX;

@@ -9,8 +9,10 @@
 #include <stdbool.h>
 #include <stdint.h>
 
+#include "base/compiler.h"
 #include "base/fmath.h"
 #include "model/scale.h"
+#include "model/sine.h"
 
 struct normal_f32_map {
     float yy, yw, wy, ww; /* (y - n, w) changes by this matrix times (y - n, w) */
@@ -23,7 +25,7 @@ struct normal_f32_coeffs {
     bool is_exact;
     bool has_phase; /* exact, undamped and never lifted: y from an integer phase index */
     uint8_t contact;
-    struct normal_f32_map full, half; /* over h and h/2 */
+    struct normal_f32_map full, half; /* over h and h/2, in closed form */
 };
 
 struct normal_f32 {
@@ -31,7 +33,7 @@ struct normal_f32 {
     float y_rest, w_rest; /* what rounding took from them so far */
     float n;              /* brake force held over the present step */
     float cosine, sine;   /* y = n + cosine cos(phase) + sine sin(phase), where has_phase */
-    uint32_t phase;
+    uint32_t phase;       /* within a quarter turn; each full quarter turns the amplitudes instead */
     float least_force; /* the contact force is y, but never less than this: 0, or far below all y where it may pull */
     bool is_lifted;    /* spring off: contact lift and y < 0 */
     bool is_steady_from_rest; /* from rest under a force that never changed: y >= 0 but for rounding */
@@ -64,6 +66,54 @@ static inline void normal_f32_move(struct normal_f32 *normal, const struct norma
     normal->w = fmath_add_kept(normal->w, piece->dw, &normal->w_rest);
 }
 
+/* The way of y between two instants, as the cubic through displacement and velocity at both; t from 0 to 1. Friction does not
+ * act on y, so a step with switches of friction integrates y once and reads it off here. */
+struct normal_f32_arc {
+    float y, slope, square, cube; /* y + t (slope + t (square + t cube)) */
+};
+
+/* From the present state to the end of a piece that takes so long. */
+static inline struct normal_f32_arc normal_f32_arc_make(const struct normal_f32 *normal, float duration,
+                                                        const struct normal_f32_piece *piece)
+{
+    const float slope0 = duration * normal->w;
+    const float slope1 = duration * piece->w;
+
+    return (struct normal_f32_arc){normal->y, slope0, 3.0f * piece->dy - 2.0f * slope0 - slope1,
+                                   slope0 + slope1 - 2.0f * piece->dy};
+}
+
+static inline float normal_f32_arc_y(const struct normal_f32_arc *arc, float t)
+{
+    return arc->y + t * (arc->slope + t * (arc->square + t * arc->cube));
+}
+
+/* A step begins: the phase goes on to its end. Each full quarter turns the amplitudes instead. Returns the phase. */
+BASE_INLINE uint32_t normal_f32_open_step(struct normal_f32 *normal, const struct normal_f32_coeffs *coeffs)
+{
+    uint32_t phase = normal->phase + coeffs->phase_stride;
+
+    if (BASE_UNLIKELY(phase >= SINE_GRID / 4u)) {
+        const float cosine = normal->cosine;
+
+        phase -= SINE_GRID / 4u;
+        normal->cosine = normal->sine;
+        normal->sine = -cosine;
+    }
+    normal->phase = phase;
+    return phase;
+}
+
+/* Displacement and velocity on the grid. */
+BASE_INLINE void normal_f32_at(const struct normal_f32 *normal, uint32_t phase, float *y, float *w)
+{
+    const float sine = sine_quarter_f32[phase];
+    const float cosine = sine_quarter_f32[SINE_GRID / 4u - phase];
+
+    *y = normal->n + (normal->cosine * cosine + normal->sine * sine);
+    *w = normal->sine * cosine - normal->cosine * sine;
+}
+
 /* Closes a whole step: puts the undamped exact solution back on its grid, holds a gap at its limit. Returns true if the
  * gap was held. */
 bool normal_f32_close_step(struct normal_f32 *normal, const struct normal_f32_coeffs *coeffs);
@@ -72,6 +122,74 @@ bool normal_f32_close_step(struct normal_f32 *normal, const struct normal_f32_co
 static inline float normal_f32_force(const struct normal_f32 *normal, float y)
 {
     return y < normal->least_force ? normal->least_force : y;
+}
+
+/* The end of a whole step in contact, by the prepared map. */
+BASE_INLINE void normal_f32_look_end(const struct normal_f32 *normal, const struct normal_f32_map *full,
+                                     struct normal_f32_piece *piece)
+{
+    const float d = normal->y - normal->n;
+
+    piece->dy = full->yy * d + full->yw * normal->w;
+    piece->dw = full->wy * d + full->ww * normal->w;
+    piece->y = normal->y + piece->dy;
+    piece->w = normal->w + piece->dw;
+}
+
+/* The displacements of its stages, in the places of the forces: the middle two are one, and the last is that of the end. */
+BASE_INLINE void normal_f32_look_middle(const struct normal_f32 *normal, const struct normal_f32_coeffs *coeffs,
+                                        struct normal_f32_piece *piece)
+{
+    const float d = normal->y - normal->n;
+
+    piece->p1 = normal->y;
+    piece->p2 = normal->y + (coeffs->half.yy * d + coeffs->half.yw * normal->w);
+    piece->p3 = piece->p2;
+    piece->p4 = piece->y;
+}
+
+/* The same by RK4; spring is 0 for a pad that is lifted, else 1. */
+BASE_INLINE void normal_f32_look_rk4(const struct normal_f32 *normal, const struct normal_f32_coeffs *coeffs,
+                                     float duration, float spring, struct normal_f32_piece *piece)
+{
+    const float half = 0.5f * duration;
+    const float sixth = duration * (1.0f / 6.0f);
+    const float y1 = normal->y;
+    const float w1 = normal->w;
+    const float a1 = normal->n - coeffs->damping * w1 - spring * y1;
+    const float y2 = y1 + half * w1;
+    const float w2 = w1 + half * a1;
+    const float a2 = normal->n - coeffs->damping * w2 - spring * y2;
+    const float y3 = y1 + half * w2;
+    const float w3 = w1 + half * a2;
+    const float a3 = normal->n - coeffs->damping * w3 - spring * y3;
+    const float y4 = y1 + duration * w3;
+    const float w4 = w1 + duration * a3;
+    const float a4 = normal->n - coeffs->damping * w4 - spring * y4;
+
+    piece->dy = sixth * (w1 + 2.0f * (w2 + w3) + w4);
+    piece->dw = sixth * (a1 + 2.0f * (a2 + a3) + a4);
+    piece->y = y1 + piece->dy;
+    piece->w = w1 + piece->dw;
+    piece->p1 = y1;
+    piece->p2 = y2;
+    piece->p3 = y3;
+    piece->p4 = y4;
+}
+
+/* From them to the forces; they differ where y < 0 alone. */
+BASE_INLINE void normal_f32_press(const struct normal_f32 *normal, struct normal_f32_piece *piece)
+{
+    const uint32_t signs =
+        fmath_bits(piece->p1) | fmath_bits(piece->p2) | fmath_bits(piece->p3) | fmath_bits(piece->p4);
+
+    if (BASE_LIKELY((int32_t)signs >= 0)) {
+        return;
+    }
+    piece->p1 = normal_f32_force(normal, piece->p1);
+    piece->p2 = normal_f32_force(normal, piece->p2);
+    piece->p3 = normal_f32_force(normal, piece->p3);
+    piece->p4 = normal_f32_force(normal, piece->p4);
 }
 
 #endif

@@ -49,6 +49,39 @@ static struct normal_q27_map make_map(int32_t damping_t, int32_t t)
     return map;
 }
 
+/* One column of what RK4 makes of (y - n, w) over a step, in Q32: y at its stages, and the end less the identity. */
+struct rk4_column {
+    int64_t stage[3], y_end, w_end;
+};
+
+static struct rk4_column make_rk4_column(int64_t damping, int64_t h, int64_t d, int64_t w)
+{
+    const int64_t a1 = -wide_times(h, d, 32u) - wide_times(damping, w, 32u);
+    const int64_t w2 = w + fixed_floor(a1, 1u);
+    const int64_t y2 = wide_times(h, w, 33u);
+    const int64_t a2 = -wide_times(h, d + y2, 32u) - wide_times(damping, w2, 32u);
+    const int64_t w3 = w + fixed_floor(a2, 1u);
+    const int64_t y3 = wide_times(h, w2, 33u);
+    const int64_t a3 = -wide_times(h, d + y3, 32u) - wide_times(damping, w3, 32u);
+    const int64_t y4 = wide_times(h, w3, 32u);
+    const int64_t a4 = -wide_times(h, d + y4, 32u) - wide_times(damping, w + a3, 32u);
+
+    return (struct rk4_column){{y2, y3, y4},
+                               wide_times(h, w + wide_times(a1 + a2 + a3, SUM_Q27_SIXTH, 32u), 32u),
+                               wide_times(a1 + 2 * (a2 + a3) + a4, SUM_Q27_SIXTH, 32u)};
+}
+
+static void make_rk4(struct normal_q27_coeffs *coeffs)
+{
+    const struct rk4_column d = make_rk4_column(coeffs->damping, coeffs->step, INT64_C(1) << 32, 0);
+    const struct rk4_column w = make_rk4_column(coeffs->damping, coeffs->step, 0, INT64_C(1) << 32);
+
+    coeffs->second = (struct normal_q27_row){(int32_t)d.stage[0], (int32_t)w.stage[0]};
+    coeffs->third = (struct normal_q27_row){(int32_t)d.stage[1], (int32_t)w.stage[1]};
+    coeffs->fourth = (struct normal_q27_row){(int32_t)d.stage[2], (int32_t)w.stage[2]};
+    coeffs->full = (struct normal_q27_map){(int32_t)d.y_end, (int32_t)w.y_end, (int32_t)d.w_end, (int32_t)w.w_end};
+}
+
 int64_t normal_q27_step(const struct scale *scale, unsigned bits)
 {
     const unsigned log2_steps = fixed_bits(scale->steps_per_period) - 1u;
@@ -66,8 +99,15 @@ void normal_q27_configure(struct normal_q27_coeffs *coeffs, const struct params 
     coeffs->contact = (uint8_t)params->contact;
     coeffs->is_exact = (int)params->normal_method == NORMAL_EXACT;
     coeffs->has_phase = coeffs->is_exact && scale->normal_damping == 0.0f && coeffs->contact != CONTACT_LIFT;
-    coeffs->full = make_map(coeffs->damping, coeffs->step);
-    coeffs->half = make_map(coeffs->damping / 2, coeffs->step / 2);
+    if (coeffs->is_exact) {
+        const struct normal_q27_map half = make_map(coeffs->damping / 2, coeffs->step / 2);
+
+        coeffs->full = make_map(coeffs->damping, coeffs->step);
+        coeffs->second = coeffs->third = (struct normal_q27_row){half.yy, half.yw};
+        coeffs->fourth = (struct normal_q27_row){coeffs->full.yy, coeffs->full.yw};
+    } else {
+        make_rk4(coeffs);
+    }
 }
 
 /* What only a change of load or contact can move. Free motion around n never exceeds the amplitude that it began with. */
@@ -149,10 +189,41 @@ static void look_series(const struct normal_q27 *normal, const struct normal_q27
     piece->w = fixed_saturate_and_tell((int64_t)e[1] + e[2] + fixed_round_up(velocity, 1u), is_saturated);
 }
 
-static BASE_NOINLINE void look_rk4(const struct normal_q27 *normal, const struct normal_q27_coeffs *coeffs, int32_t t,
-                                   int32_t damping_t, struct normal_q27_piece *piece, bool *is_saturated)
+/* t y''. A lifted pad has no spring. */
+static int32_t increment(const struct normal_q27 *normal, int32_t step, int32_t damping, int32_t y, int32_t w,
+                         bool *is_saturated)
 {
-    normal_q27_look_rk4(normal, coeffs->sixth, t, damping_t, piece, is_saturated);
+    const int64_t pull = (int64_t)normal->n - y;
+
+    return sum_q27(0, step * (normal->is_lifted ? normal->n : pull) - (int64_t)damping * w, 32u, is_saturated);
+}
+
+/* Part of a step, or one without the spring, by RK4. */
+static void look_rk4(const struct normal_q27 *normal, int32_t sixth, int32_t step, int32_t damping,
+                     struct normal_q27_piece *piece, bool *is_saturated)
+{
+    const int32_t half = step / 2;
+    const int32_t y1 = normal->y;
+    const int32_t w1 = normal->w;
+    const int32_t a1 = increment(normal, step, damping, y1, w1, is_saturated);
+    const int32_t y2 = sum_q27_step(y1, half, w1, is_saturated);
+    const int32_t w2 = sum_q27_half(w1, a1, is_saturated);
+    const int32_t a2 = increment(normal, step, damping, y2, w2, is_saturated);
+    const int32_t y3 = sum_q27_step(y1, half, w2, is_saturated);
+    const int32_t w3 = sum_q27_half(w1, a2, is_saturated);
+    const int32_t a3 = increment(normal, step, damping, y3, w3, is_saturated);
+    const int32_t y4 = sum_q27_step(y1, step, w3, is_saturated);
+    const int32_t w4 = sum_q27_plain(w1, a3, is_saturated);
+    const int32_t a4 = increment(normal, step, damping, y4, w4, is_saturated);
+    uint32_t rest = SUM_Q27_NO_REST;
+    int32_t mean;
+
+    piece->w = sum_q27_rk4(w1, &rest, sixth, a1, a2, a3, a4, 0u, &mean, is_saturated);
+    piece->y = sum_q27_step(y1, step, mean, is_saturated);
+    piece->p1 = normal_q27_force(normal, y1);
+    piece->p2 = normal_q27_force(normal, y2);
+    piece->p3 = normal_q27_force(normal, y3);
+    piece->p4 = normal_q27_force(normal, y4);
 }
 
 void normal_q27_look_part(const struct normal_q27 *normal, const struct normal_q27_coeffs *coeffs, int32_t fraction,
@@ -164,7 +235,7 @@ void normal_q27_look_part(const struct normal_q27 *normal, const struct normal_q
     if (coeffs->is_exact) {
         look_series(normal, coeffs, t, damping_t, piece, is_saturated);
     } else {
-        look_rk4(normal, coeffs, t, damping_t, piece, is_saturated);
+        look_rk4(normal, coeffs->sixth, t, damping_t, piece, is_saturated);
     }
 }
 
@@ -173,11 +244,16 @@ void normal_q27_look(const struct normal_q27 *normal, const struct normal_q27_co
 {
     struct normal_q27_arc arc;
 
-    if (!coeffs->is_exact) {
-        look_rk4(normal, coeffs, coeffs->step, coeffs->damping, piece, is_saturated);
-    } else if (!normal->is_lifted) {
-        normal_q27_look_end(normal, &coeffs->full, coeffs->has_phase, piece, is_saturated);
-        normal_q27_look_stages(normal, &coeffs->half, piece, is_saturated);
+    if (!normal->is_lifted) {
+        if (coeffs->has_phase) {
+            normal_q27_at(normal, normal->phase.index, &piece->y, &piece->w, is_saturated);
+        } else {
+            normal_q27_look_end(normal, &coeffs->full, piece, is_saturated);
+        }
+        normal_q27_look_stages(normal, coeffs, coeffs->is_exact, piece, is_saturated);
+        normal_q27_press(normal, piece);
+    } else if (!coeffs->is_exact) {
+        look_rk4(normal, coeffs->sixth, coeffs->step, coeffs->damping, piece, is_saturated);
     } else {
         look_series(normal, coeffs, coeffs->step, coeffs->damping, piece, is_saturated);
         normal_q27_arc_make(&arc, normal, coeffs, NORMAL_Q27_WHOLE, piece);
@@ -197,9 +273,9 @@ static int32_t within_bend(int64_t value)
 void normal_q27_arc_make(struct normal_q27_arc *arc, const struct normal_q27 *normal,
                          const struct normal_q27_coeffs *coeffs, int32_t fraction, const struct normal_q27_piece *piece)
 {
-    const int32_t t = fixed_part(coeffs->step, fraction);
-    const int32_t slope0 = (int32_t)fixed_round_up((int64_t)t * normal->w, 32u);
-    const int32_t slope1 = (int32_t)fixed_round_up((int64_t)t * piece->w, 32u);
+    const int32_t t = fixed_part_near(coeffs->step, fraction);
+    const int32_t slope0 = fixed_sum_of(t, normal->w).high;
+    const int32_t slope1 = fixed_sum_of(t, piece->w).high;
     const int64_t rise = (int64_t)piece->y - normal->y;
 
     arc->y = normal->y;
@@ -217,7 +293,7 @@ void normal_q27_change_contact(struct normal_q27 *normal)
 bool normal_q27_close_step(struct normal_q27 *normal, const struct normal_q27_coeffs *coeffs, bool *is_saturated)
 {
     if (coeffs->has_phase) {
-        normal_q27_at(normal, &normal->y, &normal->w, is_saturated);
+        normal_q27_at(normal, normal->phase.index, &normal->y, &normal->w, is_saturated);
     }
     if (normal->is_lifted && normal->y < -GAP_MAX_Q27) {
         normal->y = -GAP_MAX_Q27;

@@ -19,11 +19,17 @@ struct normal_q27_map {
     int32_t yy, yw, wy, ww; /* (y - n, w) changes by this matrix times (y - n, w) */
 };
 
+/* y at a stage changes by this row times (y - n, w). */
+struct normal_q27_row {
+    int32_t yy, yw;
+};
+
 struct normal_q27_coeffs {
-    int32_t sixth;                    /* SUM_Q27_SIXTH */
-    int32_t step;                     /* h */
-    int32_t damping;                  /* h Cn */
-    struct normal_q27_map full, half; /* over h and h/2 */
+    int32_t sixth;              /* SUM_Q27_SIXTH */
+    int32_t step;               /* h */
+    int32_t damping;            /* h Cn */
+    struct normal_q27_map full; /* over h, of either method: the equation is linear, and so is RK4 of it */
+    struct normal_q27_row second, third, fourth; /* at the stages of RK4 */
     uint32_t phase_stride;
     uint8_t terms; /* of the Taylor series */
     uint8_t contact;
@@ -92,14 +98,15 @@ void normal_q27_arc_make(struct normal_q27_arc *arc, const struct normal_q27 *no
 /* Displacement on the way, and its change by t. */
 static inline int32_t normal_q27_arc_y(const struct normal_q27_arc *arc, int32_t t)
 {
-    const int32_t bend = arc->square + fixed_part(arc->cube, t);
+    const int32_t bend = arc->square + fixed_part_near(arc->cube, t);
 
-    return fixed_saturate((int64_t)arc->y + fixed_part(arc->slope + fixed_part(bend, t), t));
+    return fixed_saturate((int64_t)arc->y + fixed_part_near(arc->slope + fixed_part_near(bend, t), t));
 }
 
 static inline int32_t normal_q27_arc_slope(const struct normal_q27_arc *arc, int32_t t)
 {
-    return fixed_saturate((int64_t)arc->slope + fixed_part(2 * arc->square + 3 * fixed_part(arc->cube, t), t));
+    return fixed_saturate((int64_t)arc->slope +
+                          fixed_part_near(2 * arc->square + 3 * fixed_part_near(arc->cube, t), t));
 }
 
 /* Moves to the end of a piece. */
@@ -121,96 +128,74 @@ static inline int32_t normal_q27_force(const struct normal_q27 *normal, int32_t 
 
 /* --- What the fast path of the step needs inline ------------------------------------------------------------------ */
 
-/* A step begins: the phase goes on to its end. */
-BASE_INLINE void normal_q27_open_step(struct normal_q27 *normal, const struct normal_q27_coeffs *coeffs)
+/* A step begins: the phase goes on to its end. Each full quarter turns the amplitudes instead. Returns the phase. */
+BASE_INLINE uint32_t normal_q27_open_step(struct normal_q27 *normal, const struct normal_q27_coeffs *coeffs)
 {
     struct normal_q27_phase *phase = &normal->phase;
+    uint32_t index = phase->index + coeffs->phase_stride;
 
-    phase->index += coeffs->phase_stride;
-    if (phase->index >= SINE_GRID / 4u) {
-        phase->index -= SINE_GRID / 4u;
+    if (BASE_UNLIKELY(index >= SINE_GRID / 4u)) {
+        index -= SINE_GRID / 4u;
         phase->cosine = phase->sine;
         phase->sine = phase->minus_cosine;
         phase->minus_cosine = -phase->cosine;
     }
+    phase->index = index;
+    return index;
 }
 
 /* Displacement and velocity on the grid. */
-BASE_INLINE void normal_q27_at(const struct normal_q27 *normal, int32_t *y, int32_t *w, bool *is_saturated)
+BASE_INLINE void normal_q27_at(const struct normal_q27 *normal, uint32_t index, int32_t *y, int32_t *w,
+                               bool *is_saturated)
 {
     const struct normal_q27_phase *phase = &normal->phase;
-    const int32_t sine = sine_quarter_q31[phase->index];
-    const int32_t cosine = sine_quarter_q31[SINE_GRID / 4u - phase->index];
+    const int32_t sine = sine_quarter_q31[index];
+    const int32_t cosine = sine_quarter_q31[SINE_GRID / 4u - index];
 
-    *y = sum_q27(normal->n, (int64_t)phase->cosine * cosine + (int64_t)phase->sine * sine, 32u, is_saturated);
-    *w = sum_q27(0, (int64_t)phase->sine * cosine + (int64_t)phase->minus_cosine * sine, 32u, is_saturated);
+    *y = sum_q27_two(normal->n, phase->cosine, cosine, phase->sine, sine, is_saturated);
+    *w = sum_q27_two(0, phase->sine, cosine, phase->minus_cosine, sine, is_saturated);
 }
 
-/* h y''. A lifted pad, which the fast path does not serve, has no spring. */
-BASE_INLINE int32_t normal_q27_increment(const struct normal_q27 *normal, int32_t step, int32_t damping, int32_t y,
-                                         int32_t w, bool *is_saturated)
-{
-    const int64_t pull = (int64_t)normal->n - y;
-
-    if (is_saturated == NULL) {
-        return sum_q27(0, (int64_t)step * (int32_t)pull - (int64_t)damping * w, 32u, NULL);
-    }
-    return sum_q27(0, step * (normal->is_lifted ? normal->n : pull) - (int64_t)damping * w, 32u, is_saturated);
-}
-
-BASE_INLINE void normal_q27_look_rk4(const struct normal_q27 *normal, int32_t sixth, int32_t step, int32_t damping,
-                                     struct normal_q27_piece *piece, bool *is_saturated)
-{
-    const int32_t half = step / 2;
-    const int32_t y1 = normal->y;
-    const int32_t w1 = normal->w;
-    const int32_t a1 = normal_q27_increment(normal, step, damping, y1, w1, is_saturated);
-    const int32_t y2 = sum_q27_step(y1, half, w1, is_saturated);
-    const int32_t w2 = sum_q27_half(w1, a1, is_saturated);
-    const int32_t a2 = normal_q27_increment(normal, step, damping, y2, w2, is_saturated);
-    const int32_t y3 = sum_q27_step(y1, half, w2, is_saturated);
-    const int32_t w3 = sum_q27_half(w1, a2, is_saturated);
-    const int32_t a3 = normal_q27_increment(normal, step, damping, y3, w3, is_saturated);
-    const int32_t y4 = sum_q27_step(y1, step, w3, is_saturated);
-    const int32_t w4 = sum_q27_plain(w1, a3, is_saturated);
-    const int32_t a4 = normal_q27_increment(normal, step, damping, y4, w4, is_saturated);
-    uint32_t rest = SUM_Q27_NO_REST;
-    int32_t mean;
-
-    piece->w = sum_q27_rk4(w1, &rest, sixth, a1, a2, a3, a4, 0u, &mean, is_saturated);
-    piece->y = sum_q27_step(y1, step, mean, is_saturated);
-    piece->p1 = normal_q27_force(normal, y1);
-    piece->p2 = normal_q27_force(normal, y2);
-    piece->p3 = normal_q27_force(normal, y3);
-    piece->p4 = normal_q27_force(normal, y4);
-}
-
-/* The end of a whole step in contact by the prepared map, or on the grid of the phase. */
-BASE_INLINE void normal_q27_look_end(const struct normal_q27 *normal, const struct normal_q27_map *full, bool has_phase,
+/* The end of a whole step in contact by the prepared map. */
+BASE_INLINE void normal_q27_look_end(const struct normal_q27 *normal, const struct normal_q27_map *full,
                                      struct normal_q27_piece *piece, bool *is_saturated)
 {
     const int32_t d = sum_q27_plain(normal->y, -normal->n, is_saturated);
     const int32_t w = normal->w;
 
-    if (has_phase) {
-        normal_q27_at(normal, &piece->y, &piece->w, is_saturated);
+    piece->y = sum_q27_two(normal->y, full->yy, d, full->yw, w, is_saturated);
+    piece->w = sum_q27_two(w, full->wy, d, full->ww, w, is_saturated);
+}
+
+/* The displacements of its stages, in the places of the forces. Where the closed form is used the middle two are one, and the
+ * last is that of the end. */
+BASE_INLINE void normal_q27_look_stages(const struct normal_q27 *normal, const struct normal_q27_coeffs *coeffs,
+                                        bool is_exact, struct normal_q27_piece *piece, bool *tell)
+{
+    const int32_t y = normal->y;
+    const int32_t d = sum_q27_plain(y, -normal->n, tell);
+
+    piece->p1 = y;
+    piece->p2 = sum_q27_two(y, coeffs->second.yy, d, coeffs->second.yw, normal->w, tell);
+    if (is_exact) {
+        piece->p3 = piece->p2;
+        piece->p4 = piece->y;
     } else {
-        piece->y = sum_q27(normal->y, (int64_t)full->yy * d + (int64_t)full->yw * w, 32u, is_saturated);
-        piece->w = sum_q27(w, (int64_t)full->wy * d + (int64_t)full->ww * w, 32u, is_saturated);
+        piece->p3 = sum_q27_two(y, coeffs->third.yy, d, coeffs->third.yw, normal->w, tell);
+        piece->p4 = sum_q27_two(y, coeffs->fourth.yy, d, coeffs->fourth.yw, normal->w, tell);
     }
 }
 
-/* The forces of its stages. */
-BASE_INLINE void normal_q27_look_stages(const struct normal_q27 *normal, const struct normal_q27_map *half,
-                                        struct normal_q27_piece *piece, bool *is_saturated)
+/* From them to the forces; they differ where y < 0 alone. */
+BASE_INLINE void normal_q27_press(const struct normal_q27 *normal, struct normal_q27_piece *piece)
 {
-    const int32_t d = sum_q27_plain(normal->y, -normal->n, is_saturated);
-    const int32_t middle = sum_q27(normal->y, (int64_t)half->yy * d + (int64_t)half->yw * normal->w, 32u, is_saturated);
-
-    piece->p1 = normal_q27_force(normal, normal->y);
-    piece->p2 = normal_q27_force(normal, middle);
-    piece->p3 = piece->p2;
-    piece->p4 = normal_q27_force(normal, piece->y);
+    if (BASE_LIKELY((piece->p1 | piece->p2 | piece->p3 | piece->p4) >= 0)) {
+        return;
+    }
+    piece->p1 = normal_q27_force(normal, piece->p1);
+    piece->p2 = normal_q27_force(normal, piece->p2);
+    piece->p3 = normal_q27_force(normal, piece->p3);
+    piece->p4 = normal_q27_force(normal, piece->p4);
 }
 
 #endif

@@ -20,27 +20,27 @@ static inline int32_t to_q27(float value, bool *is_saturated)
 
 static inline int32_t inside_q27(float value) { return (int32_t)(value * (float)(1 << PLANT_FRACTION_BITS)); }
 
-/* State in Q4.27; the usual case, all of it in range, is asked once. */
+/* State in Q4.27; the usual case, all of it in range, is asked once. The disc's speed never leaves it: inputs are within 1,
+ * but for rounding. */
 BASE_INLINE void report_state(const struct step_f32 *s, const struct step_f32_coeffs *c, struct plant_output *output)
 {
     const float x = s->x * c->output_length;
+    bool is_saturated = false;
 
-    output->mode = s->mode;
-    output->is_saturated = false;
-    if (BASE_LIKELY(fmath_abs(x) <= OUTPUT_MAX && fmath_abs(s->v) <= OUTPUT_MAX && fmath_abs(s->disc) <= OUTPUT_MAX &&
-                    fmath_abs(s->normal.y) <= OUTPUT_MAX && fmath_abs(s->normal.w) <= OUTPUT_MAX)) {
+    if (BASE_LIKELY(fmath_abs(x) + fmath_abs(s->v) + fmath_abs(s->normal.y) + fmath_abs(s->normal.w) <= OUTPUT_MAX)) {
         output->x = inside_q27(x);
         output->v = inside_q27(s->v);
         output->y = inside_q27(s->normal.y);
         output->w = inside_q27(s->normal.w);
-        output->disc = inside_q27(s->disc);
-        return;
+    } else {
+        output->x = to_q27(x, &is_saturated);
+        output->v = to_q27(s->v, &is_saturated);
+        output->y = to_q27(s->normal.y, &is_saturated);
+        output->w = to_q27(s->normal.w, &is_saturated);
     }
-    output->x = to_q27(x, &output->is_saturated);
-    output->v = to_q27(s->v, &output->is_saturated);
-    output->y = to_q27(s->normal.y, &output->is_saturated);
-    output->w = to_q27(s->normal.w, &output->is_saturated);
-    output->disc = to_q27(s->disc, &output->is_saturated);
+    output->disc = inside_q27(s->disc);
+    output->mode = s->mode;
+    output->is_saturated = is_saturated;
 }
 
 #endif

@@ -27,12 +27,12 @@ struct plant_output {
     int32_t disc;        /* disc speed held over the step */
     uint32_t stick;      /* share of the step spent sticking, PLANT_SHARE_ONE = all of it */
     uint32_t slip_minus; /* share of the step spent in slip with vr < 0 */
-    int8_t mode;         /* enum plant_mode at the end of the step */
     uint8_t events;      /* regime switches inside the step */
     bool is_capped;      /* one more was due than may be located */
     bool is_saturated;   /* an output did not fit Q4.27 */
-    bool is_lifted;      /* contact was lost during the step: y < 0 */
     bool is_gap_held;    /* the gap was held at its limit */
+    int8_t mode;         /* enum plant_mode at the end of the step */
+    bool is_lifted;      /* contact was lost during the step: y < 0 */
 };
 
 #endif

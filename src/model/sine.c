@@ -2,7 +2,7 @@
 #include "model/sine.h"
 
 #define SINE_POINT(value) value##f,
-static const float quarter[SINE_GRID / 4 + 1] = {
+const float sine_quarter_f32[SINE_GRID / 4 + 1] = {
 #include "model/sine_table.def"
 };
 #undef SINE_POINT
@@ -18,7 +18,8 @@ float sine_f32(uint32_t index)
 {
     const uint32_t in_quarter = index & (SINE_GRID / 4u - 1u);
     const uint32_t turn = index & (SINE_GRID - 1u);
-    const float value = (turn & (SINE_GRID / 4u)) != 0u ? quarter[SINE_GRID / 4u - in_quarter] : quarter[in_quarter];
+    const float value =
+        (turn & (SINE_GRID / 4u)) != 0u ? sine_quarter_f32[SINE_GRID / 4u - in_quarter] : sine_quarter_f32[in_quarter];
 
     return (turn & (SINE_GRID / 2u)) != 0u ? -value : value;
 }

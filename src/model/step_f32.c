@@ -8,10 +8,8 @@
 #include "model/output_f32.h"
 #include "model/slip_f32.h"
 
-static uint32_t to_share(float part, float whole)
+static uint32_t to_share(float share)
 {
-    const float share = part / whole;
-
     return share >= 1.0f ? PLANT_SHARE_ONE : share > 0.0f ? (uint32_t)(share * (float)PLANT_SHARE_ONE) : 0u;
 }
 
@@ -19,16 +17,6 @@ void step_f32_report(const struct step_f32 *s, const struct step_f32_coeffs *c, 
 {
     *output = (struct plant_output){0};
     report_state(s, c, output);
-}
-
-static void report_progress(const struct step_f32_coeffs *c, const struct event_f32_progress *progress,
-                            struct plant_output *output)
-{
-    output->stick = progress->stick > 0.0f ? to_share(progress->stick, c->normal.step) : 0u;
-    output->slip_minus = progress->slip_minus > 0.0f ? to_share(progress->slip_minus, c->normal.step) : 0u;
-    output->events = (uint8_t)progress->events;
-    output->is_capped = progress->is_capped;
-    output->is_lifted = progress->is_lifted;
 }
 
 void step_f32_configure(struct step_f32_coeffs *coeffs, const struct params *params, const struct scale *scale)
@@ -40,9 +28,20 @@ void step_f32_configure(struct step_f32_coeffs *coeffs, const struct params *par
     coeffs->floor = scale->friction_floor;
     coeffs->has_floor = scale->has_floor;
     coeffs->is_naive = (int)params->tangential_method == METHOD_NAIVE;
-    coeffs->may_be_plain = !coeffs->is_naive && (int)params->contact != CONTACT_LIFT;
     coeffs->output_length = 1.0f / (float)(1u << scale->length_shift);
     normal_f32_configure(&coeffs->normal, params, scale);
+    coeffs->may_be_whole = !coeffs->is_naive && (int)params->contact != CONTACT_LIFT;
+    coeffs->is_plain = coeffs->may_be_whole && coeffs->normal.has_phase && !scale->has_floor;
+    coeffs->whole = (struct slip_f32_factors){
+        .travel = scale->step,
+        .spring = scale->step * scale->stiffness,
+        .half_stretch = 0.5f * scale->step * scale->step * scale->stiffness,
+        .stretch = scale->step * scale->step * scale->stiffness,
+        .friction = scale->step * scale->friction,
+        .fade = scale->step * scale->friction_slope,
+        .drag = scale->step * scale->damping,
+        .floor = scale->step * scale->friction_floor,
+    };
 }
 
 void step_f32_reset(struct step_f32 *state, const struct step_f32_coeffs *coeffs, const struct params *params,
@@ -58,74 +57,233 @@ void step_f32_reset(struct step_f32 *state, const struct step_f32_coeffs *coeffs
     event_f32_set_speed(state, coeffs, first.speed);
 }
 
-/* The usual step: no switch of regime, no change of contact. False, and nothing done, where there is more to it. */
-BASE_INLINE bool plain_step(struct step_f32 *s, const struct step_f32_coeffs *c, struct plant_output *output)
-{
-    const float h = c->normal.step;
-    struct normal_f32_piece piece;
-    struct slip_end end;
-
-    normal_f32_look(&s->normal, &c->normal, h, true, &piece);
-    if (s->mode == PLANT_STICK) {
-        int8_t side;
-
-        end = (struct slip_end){s->disc * h, s->v};
-        if (stick_spare(s, c, s->x + end.dx, normal_f32_force(&s->normal, piece.y), &side) < 0.0f) {
-            return false;
-        }
-    } else {
-        const float a1 = acceleration(c, s->disc, s->mode, s->x, s->v, piece.p1);
-
-        slip(s, c, &piece, h, a1, &end);
-        if (!stays_clear(signed_by(s->mode, s->disc - s->v), -signed_by(s->mode, a1) * h,
-                         signed_by(s->mode, s->disc - end.v))) {
-            return false;
-        }
-    }
-    move_x(s, end.dx);
-    s->v = end.v;
-    normal_f32_move(&s->normal, &piece);
-    (void)normal_f32_close_step(&s->normal, &c->normal); /* no gap to hold: this pad does not lift */
-    report_state(s, c, output);
-    output->stick = s->mode == PLANT_STICK ? PLANT_SHARE_ONE : 0u;
-    output->slip_minus = s->mode == PLANT_SLIP_MINUS ? PLANT_SHARE_ONE : 0u;
-    output->events = 0u;
-    output->is_capped = false;
-    output->is_lifted = s->normal.y < 0.0f;
-    output->is_gap_held = false;
-    return true;
-}
-
 /* Any other step, piece by piece. */
-static BASE_NOINLINE void full_step(struct step_f32 *s, const struct step_f32_coeffs *c, struct plant_output *output)
+static BASE_NOINLINE void advance_in_pieces(struct step_f32 *s, const struct step_f32_coeffs *c,
+                                            const struct event_f32_attempt *attempt, struct plant_output *output)
 {
-    struct event_f32_progress progress = {c->normal.step, true, 0.0f, 0.0f, 0u, 0u, false, false};
-    bool is_gap_held;
+    struct event_f32_progress progress = {0.0f, 0.0f, 0u, 0u, false, false};
+    bool is_gap_held = false;
 
     if (c->is_naive) {
         naive_f32_step(s, c);
-        progress.slip_minus = s->mode == PLANT_SLIP_MINUS ? c->normal.step : 0.0f;
+        progress.slip_minus = s->mode == PLANT_SLIP_MINUS ? 1.0f : 0.0f;
         progress.is_lifted = s->normal.y < 0.0f;
     } else {
-        event_f32_step(s, c, &progress);
+        event_f32_step(s, c, &progress, attempt);
     }
-    is_gap_held = normal_f32_close_step(&s->normal, &c->normal);
+    if (attempt == NULL) {
+        is_gap_held = normal_f32_close_step(&s->normal, &c->normal);
+    } else if (c->normal.has_phase) {
+        s->normal.y = attempt->y;
+        s->normal.w = attempt->w;
+    }
     report_state(s, c, output);
-    report_progress(c, &progress, output);
+    output->stick = to_share(progress.stick);
+    output->slip_minus = to_share(progress.slip_minus);
+    output->events = (uint8_t)progress.events;
+    output->is_capped = progress.is_capped;
+    output->is_lifted = progress.is_lifted;
     output->is_gap_held = is_gap_held;
 }
 
-void step_f32_advance(struct step_f32 *state, const struct step_f32_coeffs *coeffs, struct step_f32_input input,
+/* --- The usual step: whole, without an event ------------------------------------------------------------------------ */
+
+/* The step was tried as a whole, and for a slip up to end, and may hold an event. */
+static BASE_NOINLINE void find_event(struct step_f32 *s, const struct step_f32_coeffs *c, float y, float w, float dy,
+                                     float dw, const struct slip_f32_end *end, struct plant_output *output)
+{
+    const struct event_f32_attempt attempt = {y, w, dy, dw, end};
+
+    advance_in_pieces(s, c, &attempt, output);
+}
+
+BASE_INLINE void find_event_in(struct step_f32 *s, const struct step_f32_coeffs *c,
+                               const struct normal_f32_piece *piece, bool has_phase, const struct slip_f32_end *end,
+                               struct plant_output *output)
+{
+    if (has_phase) {
+        find_event(s, c, piece->y, piece->w, piece->y - s->normal.y, piece->w - s->normal.w, end, output);
+    } else {
+        find_event(s, c, piece->y, piece->w, piece->dy, piece->dw, end, output);
+    }
+}
+
+/* Moves on to the end of the step and reports it. */
+BASE_INLINE void finish(struct step_f32 *s, const struct step_f32_coeffs *c, const struct normal_f32_piece *piece,
+                        bool has_phase, bool is_pressed, struct plant_output *output)
+{
+    if (has_phase) {
+        s->normal.y = piece->y;
+        s->normal.w = piece->w;
+    } else {
+        normal_f32_move(&s->normal, piece);
+    }
+    report_state(s, c, output);
+    output->events = 0u;
+    output->is_capped = false;
+    output->is_gap_held = false;
+    output->is_lifted = !is_pressed && s->normal.y < 0.0f;
+}
+
+/* May the slip end inside the step? Asked of the signs alone: one way or the other vr is beyond 0 at the end, or on the first
+ * tangent. What is not excluded here is for event_f32.c to say. */
+BASE_INLINE bool may_cross(float disc, float v, const struct slip_f32_end *end, int32_t mode)
+{
+    const uint32_t at_end = fmath_bits(disc - end->v);
+    const uint32_t on_tangent = fmath_bits(disc - v - end->first);
+    const uint32_t turned = (uint32_t)mode; /* all ones where the pad overtakes, and then the signs turn */
+
+    return (int32_t)((at_end ^ turned) | (on_tangent ^ turned)) < 0;
+}
+
+BASE_INLINE void slip_whole(struct step_f32 *s, const struct step_f32_coeffs *c, const struct normal_f32_piece *piece,
+                            bool has_phase, bool has_floor, bool is_pressed, struct plant_output *output)
+{
+    const int8_t mode = s->mode;
+    struct slip_f32_end end;
+
+    slip_f32_go(&c->whole, s->disc, mode, s->x, s->v, piece, &end, has_floor);
+    if (BASE_UNLIKELY(may_cross(s->disc, s->v, &end, mode))) {
+        const struct slip_f32_end reached = end;
+
+        find_event_in(s, c, piece, has_phase, &reached, output);
+        return;
+    }
+    move_x(s, end.dx);
+    s->v = end.v;
+    finish(s, c, piece, has_phase, is_pressed, output);
+    output->mode = mode;
+    output->stick = 0u;
+    output->slip_minus = (uint32_t)mode & PLANT_SHARE_ONE; /* of -1 the bit is set, of 1 not */
+}
+
+/* The step is whole if friction still holds the pad at its end. */
+BASE_INLINE void stick_whole(struct step_f32 *s, const struct step_f32_coeffs *c, const struct normal_f32_piece *piece,
+                             bool has_phase, bool is_pressed, struct plant_output *output)
+{
+    const float dx = c->whole.travel * s->disc;
+    const float need = stick_need(c, s->x + dx, s->disc);
+    const float p = is_pressed ? piece->y : normal_f32_force(&s->normal, piece->y);
+
+    if (BASE_UNLIKELY(!(fmath_abs(need) <= c->whole.friction * p))) {
+        find_event_in(s, c, piece, has_phase, NULL, output);
+        return;
+    }
+    move_x(s, dx);
+    finish(s, c, piece, has_phase, is_pressed, output);
+    output->mode = PLANT_STICK;
+    output->stick = PLANT_SHARE_ONE;
+    output->slip_minus = 0u;
+}
+
+/* The contact may pull, or not press: y < 0 now or then. */
+BASE_INLINE void advance_whole(struct step_f32 *s, const struct step_f32_coeffs *c, bool has_phase, bool has_floor,
+                               struct plant_output *output)
+{
+    struct normal_f32_piece piece;
+
+    if (has_phase) {
+        normal_f32_at(&s->normal, s->normal.phase, &piece.y, &piece.w);
+    } else if (c->normal.is_exact) {
+        normal_f32_look_end(&s->normal, &c->normal.full, &piece);
+    } else {
+        normal_f32_look_rk4(&s->normal, &c->normal, c->normal.step, 1.0f, &piece);
+    }
+    if (s->mode == PLANT_STICK) {
+        stick_whole(s, c, &piece, has_phase, false, output);
+        return;
+    }
+    if (has_phase || c->normal.is_exact) {
+        normal_f32_look_middle(&s->normal, &c->normal, &piece);
+    }
+    normal_f32_press(&s->normal, &piece);
+    slip_whole(s, c, &piece, has_phase, has_floor, false, output);
+}
+
+static BASE_NOINLINE void advance_phase_floor(struct step_f32 *s, const struct step_f32_coeffs *c,
+                                              struct plant_output *output)
+{
+    advance_whole(s, c, true, true, output);
+}
+
+static BASE_NOINLINE void advance_map(struct step_f32 *s, const struct step_f32_coeffs *c, struct plant_output *output)
+{
+    advance_whole(s, c, false, false, output);
+}
+
+static BASE_NOINLINE void advance_map_floor(struct step_f32 *s, const struct step_f32_coeffs *c,
+                                            struct plant_output *output)
+{
+    advance_whole(s, c, false, true, output);
+}
+
+static BASE_NOINLINE void advance_unpressed(struct step_f32 *s, const struct step_f32_coeffs *c,
+                                            struct plant_output *output)
+{
+    advance_whole(s, c, true, false, output);
+}
+
+/* The same for the paper's set and a pad that is pressed on the disc throughout, as signs alone can tell. */
+BASE_INLINE void advance_plain(struct step_f32 *s, const struct step_f32_coeffs *c, uint32_t phase,
+                               struct plant_output *output)
+{
+    struct normal_f32_piece piece;
+
+    normal_f32_at(&s->normal, phase, &piece.y, &piece.w);
+    if (s->mode == PLANT_STICK) {
+        if (BASE_LIKELY((int32_t)fmath_bits(piece.y) >= 0)) {
+            stick_whole(s, c, &piece, true, true, output);
+            return;
+        }
+    } else {
+        normal_f32_look_middle(&s->normal, &c->normal, &piece);
+        if (BASE_LIKELY((int32_t)(fmath_bits(piece.p1) | fmath_bits(piece.p2) | fmath_bits(piece.p4)) >= 0)) {
+            slip_whole(s, c, &piece, true, false, true, output);
+            return;
+        }
+    }
+    advance_unpressed(s, c, output);
+}
+
+/* ------------------------------------------------------------------------------------------------------------------ */
+
+/* Nothing is kept across what is called here, so that no register needs to be saved before it is known what. */
+BASE_INLINE void advance(struct step_f32 *s, const struct step_f32_coeffs *c, struct plant_output *output)
+{
+    const uint32_t phase = normal_f32_open_step(&s->normal, &c->normal);
+
+    if (BASE_LIKELY(c->is_plain)) {
+        advance_plain(s, c, phase, output);
+    } else if (!c->may_be_whole) {
+        advance_in_pieces(s, c, NULL, output);
+    } else if (c->normal.has_phase) {
+        advance_phase_floor(s, c, output);
+    } else if (c->has_floor) {
+        advance_map_floor(s, c, output);
+    } else {
+        advance_map(s, c, output);
+    }
+}
+
+static BASE_NOINLINE void advance_anew(struct step_f32 *s, const struct step_f32_coeffs *c, float load, float speed,
+                                       struct plant_output *output)
+{
+    if (load != s->normal.n) {
+        normal_f32_set_load(&s->normal, &c->normal, load);
+    }
+    if (speed != s->disc) {
+        event_f32_set_speed(s, c, speed);
+    }
+    advance(s, c, output);
+}
+
+void step_f32_advance(struct step_f32 *state, const struct step_f32_coeffs *coeffs, float load, float speed,
                       struct plant_output *output)
 {
-    if (input.load != state->normal.n) {
-        normal_f32_set_load(&state->normal, &coeffs->normal, input.load);
-    }
-    if (input.speed != state->disc) {
-        event_f32_set_speed(state, coeffs, input.speed);
-    }
-    if (!coeffs->may_be_plain || !plain_step(state, coeffs, output)) {
-        full_step(state, coeffs, output);
+    if (BASE_UNLIKELY(load != state->normal.n || speed != state->disc)) {
+        advance_anew(state, coeffs, load, speed, output);
+    } else {
+        advance(state, coeffs, output);
     }
 }
 
@@ -133,11 +291,14 @@ float step_f32_friction(const struct step_f32 *state, const struct step_f32_coef
 {
     const float p = normal_f32_force(&state->normal, state->normal.y);
 
+    const float signed_mu = signed_by(state->mode, coeffs->friction) + coeffs->slope * (state->disc - state->v);
+
     if (state->mode == PLANT_STICK) {
         return coeffs->damping * state->v + coeffs->stiffness * state->x;
     }
-    return acceleration(coeffs, state->disc, state->mode, state->x, state->v, p) + coeffs->damping * state->v +
-           coeffs->stiffness * state->x;
+    return coeffs->has_floor && signed_by(state->mode, signed_mu) < coeffs->floor
+               ? signed_by(state->mode, coeffs->floor) * p
+               : signed_mu * p;
 }
 
 bool step_f32_is_outside(const struct step_f32 *state)

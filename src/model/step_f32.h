@@ -10,12 +10,23 @@
 #include "model/plant.h"
 #include "model/scale.h"
 
+/* What the tangential equation is made of, times the duration of a piece in 1/wn; of a whole step that is h. */
+struct slip_f32_factors {
+    float travel;                /* h: x per v */
+    float spring;                /* h Z2 */
+    float half_stretch, stretch; /* h Z2 h/2 and h Z2 h: what a velocity adds to the spring's increment */
+    float friction, fade, drag;  /* h mu, h eps, h C */
+    float floor;                 /* h times the floor of mu */
+};
+
 struct step_f32_coeffs {
-    float damping, stiffness, friction, slope, floor; /* C, Z2, mu, eps, floor of mu */
-    bool has_floor;
-    bool is_naive;       /* RK4 on the raw sign, no stick: for comparison only */
-    bool may_be_plain;   /* neither naive nor a pad that lifts: most steps have nothing to locate */
+    struct slip_f32_factors whole;
     float output_length; /* 1/2^length_shift */
+    bool has_floor;
+    bool is_naive;     /* RK4 on the raw sign, no stick: for comparison only */
+    bool may_be_whole; /* neither naive nor a pad that lifts: most steps have nothing to locate */
+    bool is_plain; /* of these, undamped closed form of y and no floor, the paper's set: the fast path is made for it */
+    float damping, stiffness, friction, slope, floor; /* C, Z2, mu, eps, floor of mu, for reports */
     struct normal_f32_coeffs normal;
 };
 
@@ -41,7 +52,7 @@ void step_f32_reset(struct step_f32 *state, const struct step_f32_coeffs *coeffs
 
 /* Advances by one step h and reports it. Cost: one RK4 step, and at most 1 + 2 (PLANT_EVENTS_MAX + PLANT_CONTACTS_MAX)
  * where regimes switch. [ISR] */
-void step_f32_advance(struct step_f32 *state, const struct step_f32_coeffs *coeffs, struct step_f32_input input,
+void step_f32_advance(struct step_f32 *state, const struct step_f32_coeffs *coeffs, float load, float speed,
                       struct plant_output *output);
 
 /* The state as it stands, with nothing having happened. [ANY] */

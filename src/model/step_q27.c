@@ -6,7 +6,6 @@
 
 #define FINE_LIMIT (INT64_C(1) << 31) /* 1/2 in Q32 */
 #define TAME_LIMIT (1u << 28)         /* 2 in Q27 */
-#define FAULT_SPEED ((int32_t)SCALE_FAULT_SPEED << PLANT_FRACTION_BITS)
 
 /* h value 2^exponent, h exact to 38 bits. */
 static int64_t times_step(const struct scale *scale, float value, int exponent)
@@ -28,6 +27,7 @@ static void configure_factors(struct slip_q27_factors *f, const struct scale *sc
     f->fade = fixed_saturate(-times_step(scale, scale->friction_slope, bits));
     f->floor = fixed_saturate(floor);
     f->drag = (1 << 26) - times_step(scale, scale->damping, bits + 27);
+    f->damp = fixed_saturate(SLIP_Q27_UPPER_UNIT / 2 - times_step(scale, scale->damping, bits));
     f->knee = ((int64_t)f->floor - f->friction) * (1 << 27);
 }
 
@@ -68,9 +68,9 @@ void step_q27_configure(struct step_q27_coeffs *coeffs, const struct params *par
     configure_factors(&coeffs->fine, scale, SLIP_Q27_FINE);
     coeffs->drag = fixed_saturate(-times_step(scale, scale->damping, SLIP_Q27_WIDE));
     coeffs->has_floor = scale->has_floor;
-    coeffs->is_plain = coeffs->normal.has_phase && !scale->has_floor;
     coeffs->is_naive = (int)params->tangential_method == METHOD_NAIVE;
     coeffs->reach_max = coeffs->is_naive ? 0 : fine_reach(scale);
+    coeffs->reach_plain = coeffs->normal.has_phase && !scale->has_floor ? coeffs->reach_max : 0;
     coeffs->stiffness = fixed_from_float(scale->stiffness, PLANT_FRACTION_BITS + (int)scale->length_shift);
     coeffs->friction = fixed_from_float(scale->friction, PLANT_FRACTION_BITS);
     coeffs->slope = fixed_from_float(scale->friction_slope, PLANT_FRACTION_BITS);
@@ -123,14 +123,16 @@ static BASE_NOINLINE void advance_in_pieces(struct step_q27 *s, const struct ste
                                             const struct event_q27_attempt *attempt, struct plant_output *output)
 {
     struct event_q27_progress progress = {0u, 0u, 0u, 0u, false, false};
-    bool is_gap_held;
+    bool is_gap_held = false;
 
     if (c->is_naive) {
         naive_q27_step(s, c, &progress);
     } else {
         event_q27_step(s, c, &progress, attempt);
     }
-    is_gap_held = normal_q27_close_step(&s->normal, &c->normal, &s->is_saturated);
+    if (attempt == NULL) {
+        is_gap_held = normal_q27_close_step(&s->normal, &c->normal, &s->is_saturated);
+    }
     report(s, s->mode, output);
     output->stick = progress.stick;
     output->slip_minus = progress.slip_minus;
@@ -143,10 +145,19 @@ static BASE_NOINLINE void advance_in_pieces(struct step_q27 *s, const struct ste
 
 /* --- The usual step: whole, without an event, everything within the bounds of the fine arithmetic ------------------ */
 
+/* The step was tried as a whole, up to y, w and for a slip up to end, and may hold an event. */
+static BASE_NOINLINE void find_event(struct step_q27 *s, const struct step_q27_coeffs *c, int32_t y, int32_t w,
+                                     const struct slip_q27_end *end, struct plant_output *output)
+{
+    const struct event_q27_attempt attempt = {y, w, end};
+
+    advance_in_pieces(s, c, &attempt, output);
+}
+
 /* An event may lie in the step, where this test does not exclude it, which is that of event_q27.c: a curve that stays above
  * its first tangent stays above 0 when the tangent does. */
 BASE_INLINE void slip_whole(struct step_q27 *s, const struct step_q27_coeffs *c, const struct normal_q27_piece *piece,
-                            bool has_floor, struct plant_output *output)
+                            bool is_exact, bool has_floor, bool is_pressed, struct plant_output *output)
 {
     const bool is_turned = s->mode < 0;
     struct slip_q27_view view = {s->x, s->v, s->disc, 0};
@@ -156,11 +167,11 @@ BASE_INLINE void slip_whole(struct step_q27 *s, const struct step_q27_coeffs *c,
         view = (struct slip_q27_view){-s->x, -s->v, -s->disc, 0};
     }
     view.drive = slip_q27_drive(&c->fine, view.disc, NULL);
-    slip_q27_go(&c->fine, &view, &s->rest, piece, &end, has_floor, SLIP_Q27_FINE, NULL);
+    slip_q27_go_fine(&c->fine, &view, &s->rest, piece, &end, is_exact, has_floor);
     if (BASE_UNLIKELY(end.v > view.disc || (view.disc - view.v <= end.first && view.v < view.disc))) {
-        const struct event_q27_attempt attempt = {*piece, end};
+        const struct slip_q27_end reached = end;
 
-        advance_in_pieces(s, c, &attempt, output);
+        find_event(s, c, piece->y, piece->w, &reached, output);
         return;
     }
     s->x = end.x;
@@ -174,69 +185,121 @@ BASE_INLINE void slip_whole(struct step_q27 *s, const struct step_q27_coeffs *c,
         output->mode = PLANT_SLIP_MINUS;
         output->slip_minus = PLANT_SHARE_ONE;
     }
-    output->is_lifted = piece->y < 0;
+    output->is_lifted = !is_pressed && piece->y < 0;
 }
 
-/* The step is whole if friction still holds the pad at its end. */
+/* The step is whole if friction still holds the pad at its end. Asked of the upper words alone, which now and then calls for
+ * help without need. */
 BASE_INLINE void stick_whole(struct step_q27 *s, const struct step_q27_coeffs *c, const struct normal_q27_piece *piece,
-                             struct plant_output *output)
+                             bool is_pressed, struct plant_output *output)
 {
     const int32_t x = s->x + fixed_product(c->wide.travel, s->disc, 32u);
+    const int32_t p = is_pressed ? piece->y : normal_q27_force(&s->normal, piece->y);
+    const int32_t limit = fixed_sum_of(c->wide.friction, p).high - 1;
+    struct fixed_sum pull = fixed_sum_of(c->wide.spring, x);
 
-    if (BASE_UNLIKELY(!event_q27_is_held(c, x, s->disc, normal_q27_force(&s->normal, piece->y), 0))) {
-        const struct event_q27_attempt attempt = {*piece, {0, 0, {0u, 0u}, 0}};
-
-        advance_in_pieces(s, c, &attempt, output);
+    fixed_sum_add(&pull, c->drag, s->disc);
+    if (BASE_UNLIKELY(((limit - pull.high) | (limit + pull.high)) < 0)) {
+        find_event(s, c, piece->y, piece->w, NULL, output);
         return;
     }
     s->x = x;
     normal_q27_move(&s->normal, piece);
     report(s, PLANT_STICK, output);
     output->stick = PLANT_SHARE_ONE;
-    output->is_lifted = piece->y < 0;
+    output->is_lifted = !is_pressed && piece->y < 0;
 }
 
-BASE_INLINE void advance_tame(struct step_q27 *s, const struct step_q27_coeffs *c, bool is_exact, bool has_phase,
+/* The contact may pull, or not press: y < 0 now or then. */
+BASE_INLINE void advance_tame(struct step_q27 *s, const struct step_q27_coeffs *c, bool has_phase, bool is_exact,
                               bool has_floor, struct plant_output *output)
 {
     struct normal_q27_piece piece;
 
-    if (is_exact) {
-        normal_q27_look_end(&s->normal, &c->normal.full, has_phase, &piece, NULL);
+    if (has_phase) {
+        normal_q27_at(&s->normal, s->normal.phase.index, &piece.y, &piece.w, NULL);
     } else {
-        normal_q27_look_rk4(&s->normal, c->normal.sixth, c->normal.step, c->normal.damping, &piece, NULL);
+        normal_q27_look_end(&s->normal, &c->normal.full, &piece, NULL);
     }
     if (s->mode == PLANT_STICK) {
-        stick_whole(s, c, &piece, output);
+        stick_whole(s, c, &piece, false, output);
         return;
     }
-    if (is_exact) {
-        normal_q27_look_stages(&s->normal, &c->normal.half, &piece, NULL);
-    }
-    slip_whole(s, c, &piece, has_floor, output);
+    normal_q27_look_stages(&s->normal, &c->normal, is_exact, &piece, NULL);
+    normal_q27_press(&s->normal, &piece);
+    slip_whole(s, c, &piece, is_exact, has_floor, false, output);
 }
 
-static BASE_NOINLINE void advance_tame_other(struct step_q27 *s, const struct step_q27_coeffs *c,
+static BASE_NOINLINE void advance_tame_phase(struct step_q27 *s, const struct step_q27_coeffs *c,
                                              struct plant_output *output)
 {
-    if (c->has_floor) {
-        advance_tame(s, c, c->normal.is_exact, c->normal.has_phase, true, output);
-    } else {
-        advance_tame(s, c, c->normal.is_exact, c->normal.has_phase, false, output);
-    }
+    advance_tame(s, c, true, true, c->has_floor, output);
 }
 
-/* |x| and |v| below 2, and a normal motion that stays within the reach of the fine arithmetic. */
-BASE_INLINE bool is_tame(const struct step_q27 *s, const struct step_q27_coeffs *c)
+static BASE_NOINLINE void advance_tame_map(struct step_q27 *s, const struct step_q27_coeffs *c,
+                                           struct plant_output *output)
+{
+    advance_tame(s, c, false, false, false, output);
+}
+
+static BASE_NOINLINE void advance_tame_floor(struct step_q27 *s, const struct step_q27_coeffs *c,
+                                             struct plant_output *output)
+{
+    advance_tame(s, c, false, false, true, output);
+}
+
+/* The same for the paper's set and a pad that is pressed on the disc throughout, as signs alone can tell. */
+static BASE_NOINLINE void advance_plain(struct step_q27 *s, const struct step_q27_coeffs *c, uint32_t index,
+                                        struct plant_output *output)
+{
+    struct normal_q27_piece piece;
+
+    normal_q27_at(&s->normal, index, &piece.y, &piece.w, NULL);
+    if (s->mode == PLANT_STICK) {
+        if (BASE_LIKELY(piece.y >= 0)) {
+            stick_whole(s, c, &piece, true, output);
+            return;
+        }
+    } else {
+        normal_q27_look_stages(&s->normal, &c->normal, true, &piece, NULL);
+        if (BASE_LIKELY((piece.p1 | piece.p2 | piece.p4) >= 0)) {
+            slip_whole(s, c, &piece, true, false, true, output);
+            return;
+        }
+    }
+    advance_tame_phase(s, c, output);
+}
+
+/* |x| and |v| below 2, and a normal motion that stays within what the fine arithmetic serves. */
+BASE_INLINE bool is_tame(const struct step_q27 *s, int32_t reach_max)
 {
     const uint32_t size = ((uint32_t)s->x + TAME_LIMIT) | ((uint32_t)s->v + TAME_LIMIT);
 
-    return s->normal.reach < c->reach_max && size < 2u * TAME_LIMIT;
+    return s->normal.reach < reach_max && size < 2u * TAME_LIMIT;
 }
 
 /* ------------------------------------------------------------------------------------------------------------------ */
 
-static BASE_NOINLINE void take_input(struct step_q27 *s, const struct step_q27_coeffs *c, int32_t load, int32_t speed)
+/* Nothing is kept across what is called here, so that no register needs to be saved before it is known what. */
+BASE_INLINE void advance(struct step_q27 *s, const struct step_q27_coeffs *c, struct plant_output *output)
+{
+    const uint32_t index = normal_q27_open_step(&s->normal, &c->normal);
+
+    if (BASE_LIKELY(is_tame(s, c->reach_plain))) {
+        advance_plain(s, c, index, output);
+    } else if (!is_tame(s, c->reach_max)) {
+        advance_in_pieces(s, c, NULL, output);
+    } else if (c->normal.has_phase) {
+        advance_tame_phase(s, c, output);
+    } else if (c->has_floor) {
+        advance_tame_floor(s, c, output);
+    } else {
+        advance_tame_map(s, c, output);
+    }
+}
+
+static BASE_NOINLINE void advance_anew(struct step_q27 *s, const struct step_q27_coeffs *c, int32_t load, int32_t speed,
+                                       struct plant_output *output)
 {
     if (load != s->normal.n) {
         normal_q27_set_load(&s->normal, &c->normal, load, &s->is_saturated);
@@ -244,21 +307,16 @@ static BASE_NOINLINE void take_input(struct step_q27 *s, const struct step_q27_c
     if (speed != s->disc) {
         event_q27_set_speed(s, c, speed);
     }
+    advance(s, c, output);
 }
 
-void step_q27_advance(struct step_q27 *state, const struct step_q27_coeffs *coeffs, struct step_q27_input input,
+void step_q27_advance(struct step_q27 *state, const struct step_q27_coeffs *coeffs, int32_t load, int32_t speed,
                       struct plant_output *output)
 {
-    if (BASE_UNLIKELY(input.load != state->normal.n || input.speed != state->disc)) {
-        take_input(state, coeffs, input.load, input.speed);
-    }
-    normal_q27_open_step(&state->normal, &coeffs->normal);
-    if (BASE_UNLIKELY(!is_tame(state, coeffs))) {
-        advance_in_pieces(state, coeffs, NULL, output);
-    } else if (BASE_LIKELY(coeffs->is_plain)) {
-        advance_tame(state, coeffs, true, true, false, output);
+    if (BASE_UNLIKELY(load != state->normal.n || speed != state->disc)) {
+        advance_anew(state, coeffs, load, speed, output);
     } else {
-        advance_tame_other(state, coeffs, output);
+        advance(state, coeffs, output);
     }
 }
 
@@ -277,9 +335,4 @@ int32_t step_q27_friction(const struct step_q27 *state, const struct step_q27_co
         ratio = coeffs->floor;
     }
     return fixed_saturate(sign * fixed_shift_right((int64_t)fixed_saturate(ratio) * p, 27u));
-}
-
-bool step_q27_is_outside(const struct step_q27 *state)
-{
-    return state->is_saturated || fixed_abs(state->v) > (uint32_t)FAULT_SPEED;
 }

@@ -18,7 +18,7 @@ struct step_q27_coeffs {
     struct slip_q27_factors fine, wide; /* of a whole step */
     int32_t drag;                       /* -h C in the format of wide */
     int32_t reach_max;                  /* the fast path serves a normal motion within it; 0: no motion at all */
-    bool is_plain; /* undamped closed form of y and no floor, the paper's set: the fast path is made for it */
+    int32_t reach_plain; /* the same for undamped closed form of y and no floor, the paper's set, else 0 */
     bool has_floor;
     bool is_naive; /* RK4 on the raw sign, no stick: for comparison only */
     struct normal_q27_coeffs normal;
@@ -49,7 +49,7 @@ void step_q27_reset(struct step_q27 *state, const struct step_q27_coeffs *coeffs
 
 /* Advances by one step h and reports it. Cost: one RK4 step, and at most 1 + 2 (PLANT_EVENTS_MAX + PLANT_CONTACTS_MAX)
  * where regimes switch. [ISR] */
-void step_q27_advance(struct step_q27 *state, const struct step_q27_coeffs *coeffs, struct step_q27_input input,
+void step_q27_advance(struct step_q27 *state, const struct step_q27_coeffs *coeffs, int32_t load, int32_t speed,
                       struct plant_output *output);
 
 /* The state as it stands, with nothing having happened. [ANY] */
@@ -60,6 +60,9 @@ void step_q27_report(const struct step_q27 *state, struct plant_output *output);
 int32_t step_q27_friction(const struct step_q27 *state, const struct step_q27_coeffs *coeffs);
 
 /* The plant has left its domain: a state saturated, or is beyond what the model means. */
-bool step_q27_is_outside(const struct step_q27 *state);
+static inline bool step_q27_is_outside(const struct step_q27 *state)
+{
+    return state->is_saturated || fixed_abs(state->v) > (uint32_t)SCALE_FAULT_SPEED << PLANT_FRACTION_BITS;
+}
 
 #endif

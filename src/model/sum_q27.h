@@ -56,20 +56,28 @@ BASE_INLINE int32_t sum_q27_step(int32_t base, int32_t factor, int32_t value, bo
     return sum_q27(base, (int64_t)factor * value, 32u, is_saturated);
 }
 
+/* base + (a b + c d)/2^32. */
+BASE_INLINE int32_t sum_q27_two(int32_t base, int32_t a, int32_t b, int32_t c, int32_t d, bool *is_saturated)
+{
+    struct fixed_sum sum = {1u << 31, base};
+
+    if (is_saturated != NULL) {
+        return sum_q27(base, (int64_t)a * b + (int64_t)c * d, 32u, is_saturated);
+    }
+    fixed_sum_add(&sum, a, b);
+    fixed_sum_add(&sum, c, d);
+    return sum.high;
+}
+
 /* base + sum/2^32 that forgets nothing: *rest is the word below base with a half added, before and after. What the next
  * sum starts from is then not rounded, and base is what it would be rounded to. */
 #define SUM_Q27_NO_REST (1u << 31)
 
 BASE_INLINE int32_t sum_q27_kept(int32_t base, uint32_t *rest, int64_t sum, bool *is_saturated)
 {
-    if (is_saturated != NULL) {
-        sum += *rest;
-        *rest = (uint32_t)sum;
-        return fixed_saturate_and_tell(base + fixed_floor(sum, 32u), is_saturated);
-    }
-    sum += ((int64_t)base * ((int64_t)1 << 32)) | *rest;
+    sum += *rest;
     *rest = (uint32_t)sum;
-    return sum_q27_of(sum, 32u, NULL);
+    return fixed_saturate_and_tell(base + fixed_floor(sum, 32u), is_saturated);
 }
 
 /* One sixth in Q32. Passed as a variable, because gcc makes a row of shifts of a product with a constant. */
@@ -82,20 +90,23 @@ BASE_INLINE int32_t sum_q27_kept(int32_t base, uint32_t *rest, int64_t sum, bool
 BASE_INLINE int32_t sum_q27_rk4(int32_t base, uint32_t *rest, int32_t sixth, int32_t a, int32_t b, int32_t c, int32_t d,
                                 uint32_t below, int32_t *mean, bool *is_saturated)
 {
-    const int64_t lacking = (int64_t)SUM_Q27_SIXTH_Q12 * (int32_t)below;
-    int64_t sum;
+    struct fixed_sum total = {*rest, base};
 
     if (is_saturated != NULL) {
-        sum = (int64_t)sixth * a + (int64_t)sixth * b + (int64_t)sixth * c;
+        int64_t sum = (int64_t)sixth * a + (int64_t)sixth * b + (int64_t)sixth * c;
+
         *mean = sum_q27_kept(base, rest, sum, is_saturated);
-        sum = (int64_t)sixth * b + (int64_t)sixth * c + (int64_t)sixth * d + lacking;
+        sum =
+            (int64_t)sixth * b + (int64_t)sixth * c + (int64_t)sixth * d + (int64_t)SUM_Q27_SIXTH_Q12 * (int32_t)below;
         return sum_q27_kept(*mean, rest, sum, is_saturated);
     }
-    sum = (((int64_t)base * ((int64_t)1 << 32)) | *rest) + (int64_t)sixth * (a + (b + c));
-    *mean = sum_q27_of(sum, 32u, NULL);
-    sum += (int64_t)sixth * (b + c) + (int64_t)sixth * d + lacking;
-    *rest = (uint32_t)sum;
-    return sum_q27_of(sum, 32u, NULL);
+    b += c;
+    fixed_sum_add(&total, sixth, a + b);
+    *mean = total.high;
+    fixed_sum_add(&total, sixth, b + d);
+    fixed_sum_add(&total, SUM_Q27_SIXTH_Q12, (int32_t)below);
+    *rest = total.low;
+    return total.high;
 }
 
 #endif

@@ -1,6 +1,7 @@
 /* Booking: every step into the present frame, every period into the strobes. */
 #include "sim/detector.h"
 
+#include "base/compiler.h"
 #include "base/fixed.h"
 #include "sim/detector_parts.h"
 #include "sim/extremum.h"
@@ -69,7 +70,7 @@ void detector_set_diverged(struct detector *detector)
     detector->verdict.period = 0u;
 }
 
-static void widen(int32_t value, int32_t *low, int32_t *high)
+BASE_INLINE void widen(int32_t value, int32_t *low, int32_t *high)
 {
     if (value > *high) {
         *high = value;
@@ -80,7 +81,7 @@ static void widen(int32_t value, int32_t *low, int32_t *high)
 }
 
 /* Displacement turns where the velocity changes its sign; a maximum is remembered with its time. */
-static void book_turn(struct detector *detector, const struct plant_output *output)
+static BASE_NOINLINE void book_turn(struct detector *detector, const struct plant_output *output)
 {
     const bool is_maximum = detector->v1 > 0;
     const int32_t extreme =
@@ -98,24 +99,26 @@ static void book_turn(struct detector *detector, const struct plant_output *outp
     }
 }
 
-/* Upward passages of the level that the frame before has set, with hysteresis against small wiggles. */
-static void book_passage(struct detector *detector, const struct plant_output *output)
+static BASE_NOINLINE void book_crossing(struct detector *detector, const struct plant_output *output)
 {
-    if (detector->hysteresis == 0) {
-        return;
-    }
-    if (!detector->is_below) {
-        detector->is_below = output->x < detector->level - detector->hysteresis;
-    } else if (output->x >= detector->level && detector->x1 < detector->level) {
-        const uint32_t before = (uint32_t)((int64_t)detector->level - detector->x1);
-        const uint32_t whole = (uint32_t)((int64_t)output->x - detector->x1);
+    const uint32_t before = (uint32_t)((int64_t)detector->level - detector->x1);
+    const uint32_t whole = (uint32_t)((int64_t)output->x - detector->x1);
 
-        detector->now.last_q15 = (detector->step << 15) + extremum_ratio_q15(before, whole);
-        if (detector->now.crossings == 0u) {
-            detector->now.first_q15 = detector->now.last_q15;
-        }
-        detector->now.crossings++;
-        detector->is_below = false;
+    detector->now.last_q15 = (detector->step << 15) + extremum_ratio_q15(before, whole);
+    if (detector->now.crossings == 0u) {
+        detector->now.first_q15 = detector->now.last_q15;
+    }
+    detector->now.crossings++;
+    detector->is_below = false;
+}
+
+/* Upward passages of the level that the frame before has set, with hysteresis against small wiggles. */
+BASE_INLINE void book_passage(struct detector *detector, const struct plant_output *output)
+{
+    if (!detector->is_below) {
+        detector->is_below = output->x < detector->level - detector->hysteresis && detector->hysteresis != 0;
+    } else if (output->x >= detector->level && detector->x1 < detector->level) {
+        book_crossing(detector, output);
     }
 }
 
@@ -129,7 +132,7 @@ static uint64_t square_of_change(int64_t change)
 
 /* Once a period. The second difference of three strobes is blind to what repeats every period and to a steady drift: what
  * is left is the free part of the motion. */
-static void book_strobe(struct detector *detector, const struct plant_output *output)
+static BASE_NOINLINE void book_strobe(struct detector *detector, const struct plant_output *output)
 {
     const uint32_t slot = detector->strobes % DETECTOR_STROBES;
 
@@ -157,33 +160,58 @@ static void close_frame(struct detector *detector)
     detector->hysteresis = (int32_t)(((int64_t)detector->now.x_max - detector->now.x_min) / 10);
 }
 
-static void book_sample(struct detector *detector, const struct plant_output *output)
+/* The largest change of v in a step; what is far from it is told by half of the change, which cannot overflow. */
+BASE_INLINE void book_acceleration(struct detector *detector, int32_t v)
 {
     struct detector_frame *now = &detector->now;
-    const int32_t change = fixed_saturate((int64_t)output->v - detector->v1);
-    const int32_t v_q16 = fixed_floor_word(output->v, SQUARE_SHIFT);
+    const int32_t half = fixed_floor_word(v, 1u) - fixed_floor_word(detector->v1, 1u);
+
+    if (BASE_UNLIKELY(fixed_abs(half) >= (uint32_t)now->acceleration / 2u)) {
+        const int32_t change = fixed_saturate((int64_t)v - detector->v1);
+        const int32_t size = change < 0 ? -change : change;
+
+        now->acceleration = size > now->acceleration ? size : now->acceleration;
+    }
+}
+
+BASE_INLINE void book_sample(struct detector *detector, const struct plant_output *output)
+{
+    struct detector_frame *now = &detector->now;
+    const int32_t v = output->v;
+    const int32_t v_q16 = fixed_floor_word(v, SQUARE_SHIFT);
 
     widen(output->x, &now->x_min, &now->x_max);
-    widen(output->v, &now->v_min, &now->v_max);
+    widen(v, &now->v_min, &now->v_max);
     widen(output->w, &now->w_min, &now->w_max);
-    now->y_max = output->y > now->y_max ? output->y : now->y_max;
-    if (change > now->acceleration || -change > now->acceleration) {
-        now->acceleration = change < 0 ? -change : change;
+    if (output->y > now->y_max) {
+        now->y_max = output->y;
     }
-    now->stick += output->stick;
-    now->slip_minus += output->slip_minus;
+    book_acceleration(detector, v);
+    if ((output->stick | output->slip_minus) != 0u) {
+        now->stick += output->stick;
+        now->slip_minus += output->slip_minus;
+    }
     detector->v_sum += v_q16;
     detector->v_square_sum += (uint64_t)((int64_t)v_q16 * v_q16);
-    if ((detector->v1 > 0 && output->v < 0) || (detector->v1 < 0 && output->v > 0)) {
+    if (BASE_UNLIKELY((detector->v1 ^ v) < 0) && detector->v1 != 0 && v != 0) {
         book_turn(detector, output);
     }
     book_passage(detector, output);
     detector->x1 = output->x;
-    detector->v1 = output->v;
+    detector->v1 = v;
+}
+
+static BASE_NOINLINE void close_period(struct detector *detector, const struct plant_output *output)
+{
+    detector->phase = 0u;
+    book_strobe(detector, output);
+    if (detector->periods == DETECTOR_FRAME_PERIODS) {
+        close_frame(detector);
+    }
 }
 
 /* Work left over from the last frame; true when it has brought something new to say. */
-static bool continue_work(struct detector *detector)
+static BASE_NOINLINE bool continue_work(struct detector *detector)
 {
     switch ((enum detector_stage)detector->search.stage) {
     case STAGE_MEASURE:
@@ -211,18 +239,14 @@ bool detector_push(struct detector *detector, const struct plant_output *output)
     if (detector->has_diverged) {
         return false;
     }
-    if (detector->search.stage != STAGE_IDLE) {
+    if (BASE_UNLIKELY(detector->search.stage != STAGE_IDLE)) {
         is_new = continue_work(detector);
     }
     book_sample(detector, output);
     detector->verdict.disc = output->disc;
     detector->step++;
-    if (++detector->phase == detector->config.steps_per_period) {
-        detector->phase = 0u;
-        book_strobe(detector, output);
-        if (detector->periods == DETECTOR_FRAME_PERIODS) {
-            close_frame(detector);
-        }
+    if (BASE_UNLIKELY(++detector->phase == detector->config.steps_per_period)) {
+        close_period(detector, output);
     }
     return is_new;
 }

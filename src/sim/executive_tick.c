@@ -28,15 +28,20 @@ static void write_report(struct executive *executive)
     executive->until_report = TICKS_PER_REPORT;
 }
 
+/* A full ring counts the drop itself, and so does the number of the next sample. */
 static void push_sample(struct executive *executive)
 {
-    struct sample sample;
+    const uint32_t number = executive->samples.head + executive->samples.dropped;
+    struct sample *sample = ring_reserve(&executive->samples);
 
-    sim_sample(&executive->sim, &sample);
-    sample.epoch = executive->in_force.epoch;
-    sample.number = (uint16_t)(executive->samples.head + executive->samples.dropped);
-    (void)ring_push(&executive->samples, &sample); /* a full ring counts the drop itself */
     executive->until_sample = executive->in_force.sample_every;
+    if (sample == NULL) {
+        return;
+    }
+    sim_sample(&executive->sim, sample);
+    sample->epoch = executive->in_force.epoch;
+    sample->number = (uint16_t)number;
+    ring_commit(&executive->samples);
 }
 
 /* Those whose step has come. The safe state voids all that wait: after it only what comes anew may act. */

@@ -51,7 +51,7 @@ struct params_problem sim_plan_make(struct sim_plan *plan, const struct params *
 
 /* --- The two arithmetics ------------------------------------------------------------------------------------------ */
 
-static void renew_texture(struct sim *sim, int32_t disc)
+static BASE_NOINLINE void renew_texture(struct sim *sim, int32_t disc)
 {
     if (texture_begins(&sim->plan->texture, sim->step)) {
         sim->texture = texture_value(&sim->plan->texture, &sim->angle, sim->step, disc);
@@ -80,7 +80,7 @@ BASE_INLINE int32_t speed_q27(const struct sim *sim)
 }
 
 /* Load and speed held over the step to come. */
-static struct step_f32_input input_f32(struct sim *sim)
+BASE_INLINE struct step_f32_input input_f32(struct sim *sim)
 {
     const struct sim_plan *plan = sim->plan;
     struct step_f32_input input = {.load = load_f32(sim), .speed = speed_f32(sim)};
@@ -92,7 +92,7 @@ static struct step_f32_input input_f32(struct sim *sim)
     return input;
 }
 
-static struct step_q27_input input_q27(struct sim *sim)
+BASE_INLINE struct step_q27_input input_q27(struct sim *sim)
 {
     const struct sim_plan *plan = sim->plan;
     struct step_q27_input input = {.load = load_q27(sim), .speed = speed_q27(sim)};
@@ -184,27 +184,36 @@ static void reset_plant(struct sim *sim)
 }
 
 /* Whatever leaves the domain leaves the output's range first, but for the speed, which has a limit inside it. */
-static bool may_be_outside(const struct plant_output *output)
+BASE_INLINE bool may_be_outside(const struct plant_output *output)
 {
     return output->is_saturated ||
            fixed_abs(output->v) > (uint32_t)(SCALE_FAULT_SPEED * (float)(1 << PLANT_FRACTION_BITS)) - 1u;
 }
 
 /* Returns false when the plant has left its domain. */
-static bool advance_plant(struct sim *sim)
+BASE_INLINE bool advance_q27(struct sim *sim)
 {
-    const struct sim_plan *plan = sim->plan;
+    const struct step_q27_input input = input_q27(sim);
 
-    if (plan->arithmetic == ARITH_Q27) {
-        step_q27_advance(&sim->q27, &plan->q27, input_q27(sim), &sim->output);
-        return !step_q27_is_outside(&sim->q27);
-    }
-    step_f32_advance(&sim->f32, &plan->f32, input_f32(sim), &sim->output);
+    step_q27_advance(&sim->q27, &sim->plan->q27, input.load, input.speed, &sim->output);
+    return !step_q27_is_outside(&sim->q27);
+}
+
+static BASE_NOINLINE bool advance_f32(struct sim *sim)
+{
+    const struct step_f32_input input = input_f32(sim);
+
+    step_f32_advance(&sim->f32, &sim->plan->f32, input.load, input.speed, &sim->output);
     return !may_be_outside(&sim->output) || !step_f32_is_outside(&sim->f32);
 }
 
+BASE_INLINE bool advance_plant(struct sim *sim)
+{
+    return sim->plan->arithmetic == ARITH_Q27 ? advance_q27(sim) : advance_f32(sim);
+}
+
 /* The states as words, in the order in which they are hashed. */
-static void state_words(const struct sim *sim, uint32_t words[4])
+BASE_INLINE void state_words(const struct sim *sim, uint32_t words[4])
 {
     if (sim->plan->arithmetic == ARITH_Q27) {
         words[0] = (uint32_t)sim->q27.x;
@@ -358,21 +367,28 @@ void sim_watch(struct sim *sim, const struct watch_pace *pace)
 }
 
 /* The place inside the step is by a straight line: a diverging plant needs many steps to pass the mark. */
-static void watch_v10(struct sim *sim, int32_t v_before)
+static BASE_NOINLINE void book_v10(struct sim *sim, uint32_t before, uint32_t now, uint32_t limit)
 {
-    const int64_t limit = (int64_t)fixed_abs(sim->output.disc) * V10_RATIO;
-    const uint32_t before = fixed_abs(v_before);
-    const uint32_t now = fixed_abs(sim->output.v);
-
-    if (sim->has_v10 || limit == 0 || now <= limit) {
+    if (sim->has_v10 || limit == 0u) {
         return;
     }
     sim->has_v10 = true;
     sim->v10_step = sim->step;
-    sim->v10_fraction_q15 = before < limit ? extremum_ratio_q15((uint32_t)limit - before, now - before) : 0u;
+    sim->v10_fraction_q15 = before < limit ? extremum_ratio_q15(limit - before, now - before) : 0u;
 }
 
-static void count(struct sim *sim)
+/* The disc's speed is within 1 but for rounding, and ten times that fits. */
+BASE_INLINE void watch_v10(struct sim *sim, int32_t v_before)
+{
+    const uint32_t limit = fixed_abs(sim->output.disc) * V10_RATIO;
+    const uint32_t now = fixed_abs(sim->output.v);
+
+    if (BASE_UNLIKELY(now > limit)) {
+        book_v10(sim, fixed_abs(v_before), now, limit);
+    }
+}
+
+static BASE_NOINLINE void count_events(struct sim *sim)
 {
     const struct plant_output *output = &sim->output;
 
@@ -383,19 +399,31 @@ static void count(struct sim *sim)
     sim->counters.gap_held += output->is_gap_held;
 }
 
-static uint32_t hash_state(const struct sim *sim)
+/* Most steps have nothing to count. */
+BASE_INLINE void count(struct sim *sim)
+{
+    const struct plant_output *output = &sim->output;
+
+    if (BASE_UNLIKELY((output->events | output->is_capped | output->is_saturated | output->is_lifted |
+                       output->is_gap_held) != 0)) {
+        count_events(sim);
+    }
+}
+
+BASE_INLINE uint32_t hash_state(const struct sim *sim)
 {
     uint32_t words[4];
     uint32_t hash = sim->hash;
 
     state_words(sim, words);
-    for (unsigned i = 0u; i < 4u; i++) {
-        hash = hash_word(hash, words[i]);
-    }
+    hash = hash_word(hash, words[0]);
+    hash = hash_word(hash, words[1]);
+    hash = hash_word(hash, words[2]);
+    hash = hash_word(hash, words[3]);
     return hash_word(hash, (uint32_t)(int32_t)sim->output.mode);
 }
 
-bool sim_step_unhashed(struct sim *sim)
+BASE_INLINE bool make_step(struct sim *sim)
 {
     const int32_t v_before = sim->output.v;
     bool has_verdict;
@@ -421,13 +449,17 @@ bool sim_step_unhashed(struct sim *sim)
     }
     has_verdict = !watch_is_silent(sim->watch.state) ? detector_push(&sim->detector, &sim->output)
                                                      : detector_skip(&sim->detector, &sim->output);
-    measure_push(&sim->measure, &sim->output);
+    if (BASE_UNLIKELY(measure_is_active(&sim->measure))) {
+        measure_push(&sim->measure, &sim->output);
+    }
     return has_verdict;
 }
 
+bool sim_step_unhashed(struct sim *sim) { return make_step(sim); }
+
 bool sim_step(struct sim *sim)
 {
-    const bool has_verdict = sim_step_unhashed(sim);
+    const bool has_verdict = make_step(sim);
 
     if (sim->fault == SIM_FAULT_NONE) {
         sim->hash = hash_state(sim);

@@ -104,7 +104,7 @@ static void check_cap(const char *assignments)
     bool is_fair = true;
 
     plants_start(&plant, assignments);
-    for (uint32_t i = 0u; i < 2000u; i++) {
+    for (uint32_t i = 0u; i < 8000u; i++) {
         plants_run_steps(&plant, 1u);
         full += output->events == PLANT_EVENTS_MAX ? 1u : 0u;
         capped += output->is_capped ? 1u : 0u;

@@ -11,9 +11,9 @@
 /* a + b t + c t^2 + d t^3 by its ends, in a unit of 2^-bits. */
 static struct hermite_q27 cubic(float a, float b, float c, float d, int bits)
 {
-    return hermite_q27_make(fixed_times_float(1, a, bits), fixed_times_float(1, b, bits),
-                            fixed_times_float(1, a + b + c + d, bits),
-                            fixed_times_float(1, b + 2.0f * c + 3.0f * d, bits));
+    return hermite_q27_make_wide(fixed_times_float(1, a, bits), fixed_times_float(1, b, bits),
+                                 fixed_times_float(1, a + b + c + d, bits),
+                                 fixed_times_float(1, b + 2.0f * c + 3.0f * d, bits));
 }
 
 /* (root - t)(1 + lean t + bend t^2) */
@@ -38,20 +38,20 @@ static void check_roots(void)
     tap_check_close(root_of(&f, 1.0f), 0.3f, 1e-7f, "a straight line's root, where Newton stands still");
     f = with_root(1.0f, 0.3f, 0.1f, 27);
     tap_check_close(root_of(&f, 1.0f), 1.0f, 1e-6f, "a root at the end of the bracket");
-    f = hermite_q27_make(1, -(INT64_C(1) << 50), -(INT64_C(1) << 50), -(INT64_C(1) << 50));
+    f = hermite_q27_make_wide(1, -(INT64_C(1) << 50), -(INT64_C(1) << 50), -(INT64_C(1) << 50));
     tap_check_close(root_of(&f, 1.0f), 0.0f, 1e-6f, "a root at its start, lost in the unit of the others");
     f = with_root(0.45f, 0.2f, -0.1f, 27);
     tap_check_close(root_of(&f, 0.5f), 0.45f, 1e-5f, "a bracket that ends before 1");
-    f = hermite_q27_make(0, 0, 0, 0);
+    f = hermite_q27_make_wide(0, 0, 0, 0);
     tap_check(hermite_q27_root(&f, HERMITE_Q27_ONE) >= 0, "nothing at all is no reason to divide by 0");
     for (uint32_t i = 0u; i < plants_scaled(20000u, 1000u); i++) {
         const float root = plants_random(&state, 0.001f, 1.0f);
         const float lean = plants_random(&state, -0.2f, 0.2f);
         const float bend = plants_random(&state, -0.1f, 0.1f);
         const struct hermite_q27 straight = with_root(root, lean, bend, units[i % 4u]);
-        const struct hermite_q27 wild =
-            hermite_q27_make(1 + (int64_t)tap_random(&state), (int64_t)tap_random(&state) * 30 - (INT64_C(15) << 32),
-                             -1 - (int64_t)tap_random(&state), (int64_t)tap_random(&state) * 30 - (INT64_C(15) << 32));
+        const struct hermite_q27 wild = hermite_q27_make_wide(
+            1 + (int64_t)tap_random(&state), (int64_t)tap_random(&state) * 30 - (INT64_C(15) << 32),
+            -1 - (int64_t)tap_random(&state), (int64_t)tap_random(&state) * 30 - (INT64_C(15) << 32));
         const int32_t place = hermite_q27_root(&wild, HERMITE_Q27_ONE);
 
         worst = fmath_max(worst, fmath_abs(root_of(&straight, 1.0f) - root));

@@ -123,18 +123,18 @@ static void check_speed_change(void)
     input = (struct step_f32_input){state.normal.n, state.disc};
     for (uint32_t i = 0u; i < 10u; i++) {
         input.speed += 1e-4f;
-        step_f32_advance(&state, coeffs, input, &output);
+        step_f32_advance(&state, coeffs, input.load, input.speed, &output);
         follows = follows && state.mode == PLANT_STICK && state.v == input.speed;
     }
     tap_check(follows, "a pad that sticks follows a slow change of the disc's speed");
     plant.sim.f32 = state;
     input.speed += 0.2f;
-    step_f32_advance(&state, coeffs, input, &output);
+    step_f32_advance(&state, coeffs, input.load, input.speed, &output);
     tap_check(state.mode == PLANT_SLIP_PLUS && fmath_abs(state.v - (input.speed - 0.2f)) < 0.05f && output.stick == 0u,
               "a jump that friction cannot follow makes it slip");
     state = plant.sim.f32;
     input.speed -= 0.4f;
-    step_f32_advance(&state, coeffs, input, &output);
+    step_f32_advance(&state, coeffs, input.load, input.speed, &output);
     tap_check(state.mode == PLANT_SLIP_MINUS && output.slip_minus == PLANT_SHARE_ONE,
               "backwards it overtakes the disc");
 }

@@ -209,7 +209,7 @@ static uint32_t plain_hash(uint32_t steps)
         if (i == 0u) {
             step_f32_reset(&state, &plan->f32, &plan->params, &plan->scale, input);
         }
-        step_f32_advance(&state, &plan->f32, input, &output);
+        step_f32_advance(&state, &plan->f32, input.load, input.speed, &output);
         hash = hash_word(hash, fmath_bits(state.x));
         hash = hash_word(hash, fmath_bits(state.v));
         hash = hash_word(hash, fmath_bits(state.normal.y));

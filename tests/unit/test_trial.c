@@ -92,7 +92,7 @@ static void check_resonance(void)
     params = plants_preset("brake", "t2 1");
     try_set(&params, &usual);
     tap_check(trial.end == TRIAL_SQUEALED && trial_periods(&trial) > 2906.0f, "a slow ramp is waited for");
-    params = plants_preset("brake", "N1 2000 rough 0 runout 0");
+    params = plants_preset("brake", "N1 2000 t2 0.055 arith q27 rough 0 runout 0");
     try_set(&params, &brief);
     tap_check(trial_is_undecided(&trial) && !trial_is_loud(&trial), "on the border itself there is no proof");
     params = plants_preset("brake", "N1 1000");
