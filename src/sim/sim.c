@@ -423,7 +423,7 @@ BASE_INLINE uint32_t hash_state(const struct sim *sim)
     return hash_word(hash, (uint32_t)(int32_t)sim->output.mode);
 }
 
-BASE_INLINE bool make_step(struct sim *sim)
+bool sim_step_unhashed(struct sim *sim)
 {
     const int32_t v_before = sim->output.v;
     bool has_verdict;
@@ -455,11 +455,9 @@ BASE_INLINE bool make_step(struct sim *sim)
     return has_verdict;
 }
 
-bool sim_step_unhashed(struct sim *sim) { return make_step(sim); }
-
 bool sim_step(struct sim *sim)
 {
-    const bool has_verdict = make_step(sim);
+    const bool has_verdict = sim_step_unhashed(sim);
 
     if (sim->fault == SIM_FAULT_NONE) {
         sim->hash = hash_state(sim);
