@@ -95,7 +95,7 @@ $(shell mkdir -p build && echo '$(BUILD_ID)' >build/build_id)
 endif
 
 # --- Rules ----------------------------------------------------------------------------------------------------------
-.PHONY: bench bench-board bench-images all run paper tool monitor console test golden oracle hil detector noise converge frames fuzz bench-link bench-link-on debug bits check size clean help setup setup-clang other-images host-image command
+.PHONY: bench bench-images all run paper tool monitor console test golden oracle hil detector noise converge frames fuzz bench-link bench-link-on debug bits check size clean help setup setup-clang other-images tested-images host-image command
 .DELETE_ON_ERROR:
 
 all: $(IMAGE) $(CONTROLLER) ## build the firmware and the controller of tests/hil for BOARD (default mps2-an386)
@@ -294,9 +294,7 @@ bench: bench-images ## count instructions on every emulated board, compare, and 
 	! grep -q '^over\|^not ' build/bench/table.txt
 
 bench-images:
-	$(Q)for board in $(BOARDS_EMULATED); do $(MAKE) --no-print-directory BOARD=$$board bench-board || exit; done
-
-bench-board: $(IMAGE) $(BENCH)
+	$(Q)for board in $(BOARDS_EMULATED); do $(MAKE) --no-print-directory BOARD=$$board tested-images || exit; done
 
 # What starts the firmware depends on LINK=.
 BENCH_SOCKET := $(OUT_BOARD)/bench.sock
@@ -307,7 +305,7 @@ bench-link: ## count turns of lockstep a second, beside what the line alone take
 bench-link-on: $(IMAGE) $(ECHO) $(BENCH_LINK)
 	$(Q)$(BENCH_LINK) --turns $(TURNS) --socket $(LINK) -- $(COMMAND) $(if $(ECHO),-- $(BOARD_RUN) $(ECHO))
 
-test: $(IMAGE) $(CONTROLLER) $(UNIT_IMAGE) $(PROBE) $(UNIT_HOST) $(TOOL) $(ORACLE) $(CAMPAIGN) $(MERIT) $(PICTURES) $(CONVERGE) $(BENCH_LINK) $(ECHO) $(FUZZER) build/fuzz/dictionary $(REPLAY) other-images bench-images ## run everything that a change must pass
+test: tested-images $(UNIT_IMAGE) $(PROBE) $(UNIT_HOST) $(TOOL) $(ORACLE) $(CAMPAIGN) $(MERIT) $(PICTURES) $(CONVERGE) $(BENCH_LINK) $(ECHO) $(FUZZER) build/fuzz/dictionary $(REPLAY) other-images ## run everything that a change must pass
 	$(Q)COMMANDS="$(call commands_of,$(BOARDS))" BOARD=$(BOARD) BOARD_RUN="$(BOARD_RUN)" IMAGE=$(IMAGE) CONTROLLER=$(CONTROLLER) UNIT_IMAGE=$(UNIT_IMAGE) PROBE=$(PROBE) \
 	    UNIT_HOST=$(UNIT_HOST) HOST_IMAGE=build/host/squeal TOOL=$(TOOL) ORACLE=$(CURDIR)/$(ORACLE) CAMPAIGN=$(CAMPAIGN) MERIT=$(CURDIR)/$(MERIT) \
 	    PICTURES=$(CURDIR)/$(PICTURES) CONVERGE=$(CURDIR)/$(CONVERGE) BENCH_LINK=$(BENCH_LINK) \
@@ -321,8 +319,11 @@ tool: $(TOOL) ## build the host tool, build/tools/squeal; see its --help
 host-image: | setup
 	$(Q)$(MAKE) --no-print-directory BOARD=host all
 
+# One make a board: two at a time would write the same objects.
 other-images: | setup
-	$(Q)for board in $(filter-out $(BOARD),$(BOARDS)); do $(MAKE) --no-print-directory BOARD=$$board all || exit; done
+	$(Q)for board in $(filter-out $(BOARD),$(BOARDS)); do $(MAKE) --no-print-directory BOARD=$$board tested-images || exit; done
+
+tested-images: $(IMAGE) $(CONTROLLER) $(if $(filter $(BOARD),$(BOARDS_EMULATED)),$(BENCH))
 
 command: ## print "board: the command that starts its firmware"
 	@echo "$(BOARD): $(COMMAND)"
