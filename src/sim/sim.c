@@ -1,53 +1,12 @@
 /* One plant, one step at a time. */
-#include "sim/sim.h"
-
 #include "base/compiler.h"
 #include "base/fixed.h"
 #include "base/fmath.h"
 #include "base/hash.h"
 #include "sim/extremum.h"
+#include "sim/sim_parts.h"
 
 enum { V10_RATIO = 10 };
-
-static int32_t to_q27(float value) { return fixed_from_float(fmath_min(value, 15.0f), PLANT_FRACTION_BITS); }
-
-static struct detector_config detector_config(const struct params *params, const struct scale *scale)
-{
-    const struct predictor_response response = predictor_response(params, scale);
-    const float length = (float)(1u << scale->length_shift);
-    struct detector_config config;
-
-    config.steps_per_period = scale->steps_per_period;
-    config.step_q27 = to_q27(scale->step / length);
-    config.stiffness_q16 = (uint32_t)(scale->stiffness * length * length * 65536.0f);
-    config.gain_q16 = (uint32_t)(fmath_min(response.gain, 8192.0f) * 65536.0f);
-    config.load_speed = to_q27(response.load_speed);
-    config.load_response = to_q27(response.load_response);
-    return config;
-}
-
-struct params_problem sim_plan_make(struct sim_plan *plan, const struct params *params, const struct scale *latched)
-{
-    const struct params_problem problem = scale_derive(params, latched, &plan->scale);
-
-    if (problem.error != ERROR_OK) {
-        return problem;
-    }
-    plan->params = *params;
-    plan->arithmetic = (uint8_t)params->arithmetic;
-    step_f32_configure(&plan->f32, params, &plan->scale);
-    step_q27_configure(&plan->q27, params, &plan->scale);
-    acting_of_load(&plan->load, params, &plan->scale);
-    acting_of_speed(&plan->speed, params, &plan->scale);
-    plan->has_state = plan->load.has_state || plan->speed.has_state;
-    texture_derive(&plan->texture, params, &plan->scale);
-    plan->load_limit = 1.0f / scale_peak_factor(params);
-    plan->load_limit_q27 = to_q27(plan->load_limit);
-    watch_configure(&plan->watch, params, &plan->scale);
-    plan->detector = detector_config(params, &plan->scale);
-    plan->prediction = predictor_predict(params, &plan->scale);
-    return problem;
-}
 
 /* --- The two arithmetics ------------------------------------------------------------------------------------------ */
 
@@ -58,32 +17,11 @@ static BASE_NOINLINE void renew_texture(struct sim *sim, int32_t disc)
     }
 }
 
-/* A controller's, or the set's. */
-BASE_INLINE float load_f32(const struct sim *sim)
-{
-    return sim->input.holds_load ? sim->input.load : acting_value_f32(&sim->plan->load, &sim->load, sim->step);
-}
-
-BASE_INLINE float speed_f32(const struct sim *sim)
-{
-    return sim->input.holds_speed ? sim->input.speed : acting_value_f32(&sim->plan->speed, &sim->speed, sim->step);
-}
-
-BASE_INLINE int32_t load_q27(const struct sim *sim)
-{
-    return sim->input.holds_load ? sim->input.load_q27 : acting_value_q27(&sim->plan->load, &sim->load, sim->step);
-}
-
-BASE_INLINE int32_t speed_q27(const struct sim *sim)
-{
-    return sim->input.holds_speed ? sim->input.speed_q27 : acting_value_q27(&sim->plan->speed, &sim->speed, sim->step);
-}
-
 /* Load and speed held over the step to come. */
 BASE_INLINE struct step_f32_input input_f32(struct sim *sim)
 {
     const struct sim_plan *plan = sim->plan;
-    struct step_f32_input input = {.load = load_f32(sim), .speed = speed_f32(sim)};
+    struct step_f32_input input = {.load = sim_load_f32(sim), .speed = sim_speed_f32(sim)};
 
     if (plan->texture.is_active) {
         renew_texture(sim, (int32_t)(input.speed * (float)(1 << PLANT_FRACTION_BITS))); /* the speed is within 1 */
@@ -95,7 +33,7 @@ BASE_INLINE struct step_f32_input input_f32(struct sim *sim)
 BASE_INLINE struct step_q27_input input_q27(struct sim *sim)
 {
     const struct sim_plan *plan = sim->plan;
-    struct step_q27_input input = {.load = load_q27(sim), .speed = speed_q27(sim)};
+    struct step_q27_input input = {.load = sim_load_q27(sim), .speed = sim_speed_q27(sim)};
 
     if (plan->texture.is_active) {
         renew_texture(sim, input.speed);
@@ -144,29 +82,6 @@ static BASE_NOINLINE void follow(struct sim *sim)
         follow_q27(sim);
     } else {
         follow_f32(sim);
-    }
-}
-
-/* A lag or an inertia that a set brings goes on from what acts now. */
-static bool begins_to_follow(const struct acting *before, const struct acting *after)
-{
-    return (after->has_lag && !before->has_lag) || (after->kind == DEMAND_INERTIA && before->kind != DEMAND_INERTIA);
-}
-
-static void hand_over(struct sim *sim, const struct sim_plan *plan)
-{
-    const bool follows_load = begins_to_follow(&sim->plan->load, &plan->load);
-    const bool follows_speed = begins_to_follow(&sim->plan->speed, &plan->speed);
-
-    if (follows_load && plan->arithmetic == ARITH_Q27) {
-        acting_take_q27(&sim->load, load_q27(sim));
-    } else if (follows_load) {
-        acting_take_f32(&sim->load, load_f32(sim));
-    }
-    if (follows_speed && plan->arithmetic == ARITH_Q27) {
-        acting_take_q27(&sim->speed, speed_q27(sim));
-    } else if (follows_speed) {
-        acting_take_f32(&sim->speed, speed_f32(sim));
     }
 }
 
@@ -262,108 +177,6 @@ void sim_reset(struct sim *sim, const struct sim_plan *plan)
     acting_reset(&sim->speed, &plan->speed);
     reset_plant(sim);
     detector_reset(&sim->detector, &plan->detector, &sim->output);
-}
-
-/* A sine of the load explains nothing while a controller holds the load. */
-static struct detector_config detector_config_now(const struct sim *sim)
-{
-    struct detector_config config = sim->plan->detector;
-
-    if (sim->input.holds_load) {
-        config.load_speed = 0;
-        config.load_response = 0;
-    }
-    return config;
-}
-
-static void lower(float *load, int32_t *load_q27, const struct sim_plan *plan)
-{
-    *load = plan->load_limit;
-    *load_q27 = plan->load_limit_q27;
-}
-
-static bool is_held(const struct sim *sim) { return sim->input.holds_load || sim->input.holds_speed; }
-
-void sim_apply(struct sim *sim, const struct sim_plan *plan)
-{
-    struct detector_config config;
-
-    hand_over(sim, plan);
-    sim->plan = plan;
-    config = detector_config_now(sim);
-    if (sim->input.holds_load && sim->input.load > plan->load_limit) {
-        lower(&sim->input.load, &sim->input.load_q27, plan);
-        sim->counters.lowered++;
-    }
-    if (sim->safe_load > plan->load_limit) {
-        lower(&sim->safe_load, &sim->safe_load_q27, plan);
-    }
-    watch_follow(&sim->watch, &plan->watch, is_held(sim));
-    detector_restart(&sim->detector, &config);
-}
-
-void sim_input(struct sim *sim, const struct input *input)
-{
-    const bool is_demand = input->sets_load || input->sets_speed;
-    const bool is_safe = sim->watch.state == WATCH_SAFE;
-
-    if (is_safe && !input->starts) {
-        sim->counters.inputs_void++;
-        return;
-    }
-    sim->counters.inputs += is_demand ? 1u : 0u;
-    sim->counters.inputs_late += is_demand && input->step != INPUT_NOW && input->step < sim->step ? 1u : 0u;
-    input_take(&sim->input, input);
-    if (is_safe || is_demand) {
-        watch_hear(&sim->watch, &sim->plan->watch, is_held(sim));
-    }
-    sim->detector.config = detector_config_now(sim);
-}
-
-/* From here on the force that acts, the controller's or the profile's, is on its way to 0. */
-static void begin_safe_state(struct sim *sim)
-{
-    struct input_state *input = &sim->input;
-
-    if (!input->holds_load && sim->plan->arithmetic == ARITH_Q27) {
-        input->load_q27 = load_q27(sim);
-        input->load = (float)input->load_q27 / (float)(1 << PLANT_FRACTION_BITS);
-    } else if (!input->holds_load) {
-        input->load = load_f32(sim);
-        input->load_q27 = to_q27(input->load);
-    }
-    input->holds_load = true;
-    sim->safe_load = input->load;
-    sim->safe_load_q27 = input->load_q27;
-}
-
-static void lower_safe_load(struct sim *sim)
-{
-    const int32_t share = watch_share_q30(&sim->watch);
-
-    sim->input.load = sim->safe_load * ((float)share * (1.0f / 1073741824.0f));
-    sim->input.load_q27 = fixed_product(sim->safe_load_q27, share, 30u);
-}
-
-void sim_watch(struct sim *sim, const struct watch_pace *pace)
-{
-    const uint8_t before = sim->watch.state;
-
-    if (sim->fault != SIM_FAULT_NONE) {
-        return;
-    }
-    watch_advance(&sim->watch, &sim->plan->watch, pace);
-    if (sim->watch.state == WATCH_SAFE) {
-        if (before != WATCH_SAFE) {
-            begin_safe_state(sim);
-        }
-        lower_safe_load(sim);
-    }
-    if (sim->watch.state != before) {
-        const struct detector_config config = detector_config_now(sim);
-
-        detector_restart(&sim->detector, &config);
-    }
 }
 
 /* The place inside the step is by a straight line: a diverging plant needs many steps to pass the mark. */
@@ -463,12 +276,6 @@ bool sim_step(struct sim *sim)
         sim->hash = hash_state(sim);
     }
     return has_verdict;
-}
-
-void sim_resume(struct sim *sim, const struct sim_plan *plan)
-{
-    sim->plan = plan;
-    sim->detector.config = detector_config_now(sim);
 }
 
 void sim_measure(struct sim *sim, uint64_t steps)
