@@ -158,8 +158,8 @@ static void hand_over_f32(struct sim *sim, bool follows_load, bool follows_speed
     const struct sim_plan *plan = sim->plan;
 
     if (follows_load) {
-        acting_take_f32(&sim->load, sim->input.holds_load ? sim->input.load
-                                                          : acting_base_f32(&plan->load, &sim->load, sim->step));
+        acting_take_f32(&sim->load,
+                        sim->input.holds_load ? sim->input.load : acting_base_f32(&plan->load, &sim->load, sim->step));
     }
     if (follows_speed) {
         acting_take_f32(&sim->speed, sim->input.holds_speed ? sim->input.speed

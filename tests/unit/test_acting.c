@@ -252,7 +252,8 @@ static void check_live(float arith)
     start(UNIT_SET "N0 5 dither 2 f_dither 0.5 v0 4 v_dither 2 fv_dither 0.5", arith);
     plants_run_steps(&plant, 5u);
     apply(UNIT_SET "N0 5 lag 1e4 dither 2 f_dither 0.5 v0 4 speed inertia J 1e9 v_dither 2 fv_dither 0.5");
-    tap_check_close(load_now(), 5.0f + 2.0f * fmath_sine_turns(dither), 1e-3f, "a lag goes on from what acts without the dither");
+    tap_check_close(load_now(), 5.0f + 2.0f * fmath_sine_turns(dither), 1e-3f,
+                    "a lag goes on from what acts without the dither");
     tap_check_close(speed_now(), 4.0f + 2.0f * fmath_sine_turns(dither), 1e-3f, "and so does an inertia");
 }
 

@@ -167,7 +167,8 @@ static void check_once(void)
 /* 1e4 s are 1e11 steps, later than any point in time. */
 static void check_rare(void)
 {
-    plan_of_table("m 1e-6 ke 1e6 mu_s 0.1 N_max 10 v_max 10 load pulses N0 1 N1 5 rise 1e-4 every 1e4", PARAMS_TABLE_LOAD, 0u, NULL);
+    plan_of_table("m 1e-6 ke 1e6 mu_s 0.1 N_max 10 v_max 10 load pulses N0 1 N1 5 rise 1e-4 every 1e4",
+                  PARAMS_TABLE_LOAD, 0u, NULL);
     tap_check(load_at(3000u) == 1.0f, "a pulse that never comes again is over in its time");
 }
 

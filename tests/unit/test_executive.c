@@ -76,7 +76,8 @@ static void check_going_on(void)
     plants_ticks(&executive, 10u);
     (void)plants_order(&executive, "N0 1 lag 1e4 speed inertia J 1e6", false, NULL);
     plants_ticks(&executive, 10u);
-    tap_check_close(executive.sim.f32.normal.n, 0.5f, 1e-3f, "a lag that an order brings goes on from the force that acts");
+    tap_check_close(executive.sim.f32.normal.n, 0.5f, 1e-3f,
+                    "a lag that an order brings goes on from the force that acts");
     tap_check_close(executive.sim.f32.disc * executive.sim.plan->scale.speed_m_per_s, 1.0f, 1e-3f,
                     "an inertia from the speed");
 }
