@@ -282,6 +282,15 @@ static void check_refusals(void)
                   problem_of("N0 1 dither 1 N_max 2") == ERROR_OK &&
                   problem_of("N0 1 N_off 2 N_max 2.9") == ERROR_OUT_OF_SCALE,
               "what does not fit the scale");
+    tap_check(problem_of("load ramp N1 2000 t2 9 N_high 1") == ERROR_OUT_OF_SCALE &&
+                  problem_of("load sine fN 1 N1 2000 N_high 1") == ERROR_OUT_OF_SCALE &&
+                  problem_of("load pulses rise 9 N_off 2000 N_high 1") == ERROR_OUT_OF_SCALE &&
+                  problem_of("speed ramp v1 100 tv2 9 v_high 1 v_low -1") == ERROR_OUT_OF_SCALE &&
+                  problem_of("load ramp N1 59 t2 9 N_high 1") == ERROR_OK,
+              "a line of which the limits leave next to nothing");
+    tap_check(problem_of("load step N1 2000 t1 9 N_high 1") == ERROR_OK, "a jump is where it is");
+    tap_check(problem_of("speed inertia v0 5 v_off -4.5 v_max 1") == ERROR_OK,
+              "an inertia reaches no more than what it starts with");
 }
 
 void test_acting(void)
