@@ -109,20 +109,42 @@ float demand_speed_end_m_per_s(const struct params *params)
     return speed.kind == DEMAND_INERTIA && !is_braked ? demand_begin(&speed) : demand_end(&speed);
 }
 
-float demand_peak(const struct demand *demand)
+/* Least and largest value of the base. */
+static void base_span(const struct demand *demand, float *low, float *high)
 {
-    float low = fmath_min(first_base(demand), last_base(demand));
-    float high = fmath_max(first_base(demand), last_base(demand));
-
+    *low = fmath_min(first_base(demand), last_base(demand));
+    *high = fmath_max(first_base(demand), last_base(demand));
     if (demand->kind == DEMAND_SINE) {
-        low -= fmath_abs(demand->to);
-        high += fmath_abs(demand->to);
+        *low -= fmath_abs(demand->to);
+        *high += fmath_abs(demand->to);
     }
     for (uint32_t i = 0u; demand->kind == DEMAND_TABLE && i < demand->table->count; i++) {
-        low = fmath_min(low, demand->table->points[i].value);
-        high = fmath_max(high, demand->table->points[i].value);
+        *low = fmath_min(*low, demand->table->points[i].value);
+        *high = fmath_max(*high, demand->table->points[i].value);
     }
+}
+
+float demand_peak(const struct demand *demand)
+{
+    float low;
+    float high;
+
+    if (demand->kind == DEMAND_INERTIA) {
+        return fmath_abs(demand_begin(demand)) + demand->dither;
+    }
+    base_span(demand, &low, &high);
     return fmath_max(fmath_abs(demand_limit(demand, low)), fmath_abs(demand_limit(demand, high))) + demand->dither;
+}
+
+float demand_reach(const struct demand *demand)
+{
+    const bool is_line = demand->kind == DEMAND_RAMP || demand->kind == DEMAND_SINE || demand->kind == DEMAND_PULSES ||
+                         demand->kind == DEMAND_TABLE;
+    float low;
+    float high;
+
+    base_span(demand, &low, &high);
+    return is_line ? fmath_max(fmath_abs(low + demand->offset), fmath_abs(high + demand->offset)) : 0.0f;
 }
 
 float demand_inertia_ratio(const struct params *params)

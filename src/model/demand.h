@@ -50,6 +50,9 @@ float demand_speed_end_m_per_s(const struct params *params);
 /* Largest magnitude that it reaches, with the dither. */
 float demand_peak(const struct demand *demand);
 
+/* Largest magnitude of base and offset before the limits, of what moves on from there. */
+float demand_reach(const struct demand *demand);
+
 /* Mass of all pads, seen from the disc's inertia: pads m R^2/J. */
 float demand_inertia_ratio(const struct params *params);
 

@@ -69,6 +69,23 @@ static bool has_units(const struct scale *scale)
            scale->force_n >= SCALE_UNIT_MIN;
 }
 
+/* A line that the limits cut is known by its ends, which must be numbers of the model, Q4.27. */
+static struct params_problem check_lines(const struct params *params, const struct scale *scale)
+{
+    const struct demand load = demand_of_load(params);
+    const struct demand speed = demand_of_speed(params);
+    const float load_n = demand_reach(&load) / SCALE_REACH_MAX;
+    const float speed_m_per_s = demand_reach(&speed) / SCALE_REACH_MAX;
+
+    if (load_n > scale->load_n) {
+        return params_blame(ERROR_OUT_OF_SCALE, "N_max", load_n, 1e10f);
+    }
+    if (speed_m_per_s > scale->speed_m_per_s) {
+        return params_blame(ERROR_OUT_OF_SCALE, "v_max", speed_m_per_s, 1e4f);
+    }
+    return no_problem;
+}
+
 /* Does what the set can reach lie inside the units? */
 static struct params_problem check_fit(const struct params *params, const struct scale *scale)
 {
@@ -185,6 +202,9 @@ struct params_problem scale_derive(const struct params *params, const struct sca
     scale->length_shift = latched != NULL ? latched->length_shift : length_shift(scale->stiffness);
 
     problem = check_fit(params, scale);
+    if (problem.error == ERROR_OK) {
+        problem = check_lines(params, scale);
+    }
     if (problem.error == ERROR_OK && latched == NULL) {
         problem = check_start(params, scale);
     }

@@ -20,6 +20,7 @@
 #define SCALE_STEP_MAX 0.40f      /* largest z = h max(1, Z, C, Cn) */
 #define SCALE_STIFFNESS_MAX 15.0f /* largest Z2 */
 #define SCALE_FRICTION_MAX 8.0f   /* largest mu and |eps| */
+#define SCALE_REACH_MAX 15.0f     /* how far a ramp, a sine, pulses or a table may reach beyond the limits, in units */
 #define SCALE_RESERVE 4.0f        /* headroom for live changes where N_max or v_max is not given */
 #define SCALE_LENGTH_SHIFT_MAX 8u
 #define SCALE_UNIT_MIN 1e-30f           /* smallest unit, SI: an initial state in it is still a number */

@@ -167,13 +167,29 @@ void acting_reset(struct acting_state *state, const struct acting *acting)
     }
 }
 
+float acting_base_f32(const struct acting *acting, const struct acting_state *state, uint64_t step)
+{
+    const float value = demand_f32(acting, state, step);
+
+    return acting->has_lag ? state->lag.value + acting->lag_half * (value - state->lag.value) : value;
+}
+
+int32_t acting_base_q27(const struct acting *acting, const struct acting_state *state, uint64_t step)
+{
+    const int32_t value = demand_q27(acting, state, step);
+    int64_t way;
+
+    if (!acting->has_lag) {
+        return value;
+    }
+    way = (int64_t)value - rounded(state->lag.value_q56);
+    return rounded(state->lag.value_q56 + times_q56(way, &acting->lag_half_q27));
+}
+
 float acting_moving_f32(const struct acting *acting, const struct acting_state *state, uint64_t step)
 {
-    float value = demand_f32(acting, state, step);
+    float value = acting_base_f32(acting, state, step);
 
-    if (acting->has_lag) {
-        value = state->lag.value + acting->lag_half * (value - state->lag.value);
-    }
     if (acting->has_dither) {
         value += acting->dither * fmath_sine_turns(turns_at_middle(acting->dither_turns, step));
         value = acting->is_force ? fmath_max(value, 0.0f) : value;
@@ -183,13 +199,8 @@ float acting_moving_f32(const struct acting *acting, const struct acting_state *
 
 int32_t acting_moving_q27(const struct acting *acting, const struct acting_state *state, uint64_t step)
 {
-    int32_t value = demand_q27(acting, state, step);
+    int32_t value = acting_base_q27(acting, state, step);
 
-    if (acting->has_lag) {
-        const int64_t way = (int64_t)value - rounded(state->lag.value_q56);
-
-        value = rounded(state->lag.value_q56 + times_q56(way, &acting->lag_half_q27));
-    }
     if (acting->has_dither) {
         const int32_t sine = fmath_sine_turns_q30(turns_at_middle(acting->dither_turns, step));
 

@@ -61,6 +61,10 @@ void acting_of_speed(struct acting *acting, const struct params *params, const s
 /* As it is before the first step. [ISR] */
 void acting_reset(struct acting_state *state, const struct acting *acting);
 
+/* What the dither is put on, with the state at the beginning of the given step. [ISR, pure] */
+float acting_base_f32(const struct acting *acting, const struct acting_state *state, uint64_t step);
+int32_t acting_base_q27(const struct acting *acting, const struct acting_state *state, uint64_t step);
+
 /* Value held over the given step, with the state at its beginning. [ISR, pure] */
 float acting_moving_f32(const struct acting *acting, const struct acting_state *state, uint64_t step);
 int32_t acting_moving_q27(const struct acting *acting, const struct acting_state *state, uint64_t step);
@@ -86,7 +90,7 @@ static inline int32_t acting_value_q27(const struct acting *acting, const struct
 void acting_advance_f32(const struct acting *acting, struct acting_state *state, uint64_t step, float friction);
 void acting_advance_q27(const struct acting *acting, struct acting_state *state, uint64_t step, int32_t friction);
 
-/* From here on it goes on from this value, that of a controller, or of the set before. [ISR] */
+/* From here on it goes on from this value, without dither: a controller's, or that of the set before. [ISR] */
 void acting_take_f32(struct acting_state *state, float value);
 void acting_take_q27(struct acting_state *state, int32_t value);
 

@@ -48,7 +48,8 @@ static void derive_pulses(struct curve *curve, const struct demand *demand, cons
 {
     const float from = (demand->from + demand->offset) / unit;
     const float to = (demand->to + demand->offset) / unit;
-    const float turns = demand->every_s > 0.0f ? scale->step_s / demand->every_s : 0.0f;
+    const bool comes_again = demand->every_s > 0.0f && demand->every_s / scale->step_s < STEPS_MAX;
+    const float turns = comes_again ? scale->step_s / demand->every_s : 0.0f;
     const uint64_t rise = time_of(demand->rise_s, scale);
     const uint64_t hold = time_of(demand->hold_s, scale);
 

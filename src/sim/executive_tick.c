@@ -103,11 +103,14 @@ static void take_order(struct executive *executive)
     if (order == NULL) {
         return;
     }
+    if (order->is_new_plan && !order->is_reset) {
+        sim_apply(&executive->sim, &order->plan); /* which asks the plan before it, and that is in force until here */
+    }
     executive->in_force = *order;
     if (order->is_reset) {
         take_reset(executive, order);
-    } else if (order->is_new_plan) {
-        sim_apply(&executive->sim, &executive->in_force.plan);
+    } else {
+        sim_resume(&executive->sim, &executive->in_force.plan);
     }
     if (order->measure_steps != 0u) {
         sim_measure(&executive->sim, order->measure_steps);

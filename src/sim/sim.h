@@ -80,7 +80,7 @@ struct sim {
 /* Back to the initial state of the plan at step 0. The plan must outlive its use here. [ISR] */
 void sim_reset(struct sim *sim, const struct sim_plan *plan);
 
-/* A new set takes hold between two steps; state and units are kept. [ISR] */
+/* A new set takes hold between two steps; state and units are kept. The plan before it must still be as it was. [ISR] */
 void sim_apply(struct sim *sim, const struct sim_plan *plan);
 
 /* A controller's demand takes hold with the next step. In the safe state only one that starts does; any other is void, and

@@ -2,10 +2,38 @@
 #include "base/fixed.h"
 #include "sim/sim_parts.h"
 
-/* A lag or an inertia that a set brings goes on from what acts now. */
+/* A lag or an inertia that a set brings goes on from what acts now, without the dither, which the set puts on top again. */
 static bool begins_to_follow(const struct acting *before, const struct acting *after)
 {
     return (after->has_lag && !before->has_lag) || (after->kind == DEMAND_INERTIA && before->kind != DEMAND_INERTIA);
+}
+
+static void hand_over_f32(struct sim *sim, bool follows_load, bool follows_speed)
+{
+    const struct sim_plan *plan = sim->plan;
+
+    if (follows_load) {
+        acting_take_f32(&sim->load,
+                        sim->input.holds_load ? sim->input.load : acting_base_f32(&plan->load, &sim->load, sim->step));
+    }
+    if (follows_speed) {
+        acting_take_f32(&sim->speed, sim->input.holds_speed ? sim->input.speed
+                                                            : acting_base_f32(&plan->speed, &sim->speed, sim->step));
+    }
+}
+
+static void hand_over_q27(struct sim *sim, bool follows_load, bool follows_speed)
+{
+    const struct sim_plan *plan = sim->plan;
+
+    if (follows_load) {
+        acting_take_q27(&sim->load, sim->input.holds_load ? sim->input.load_q27
+                                                          : acting_base_q27(&plan->load, &sim->load, sim->step));
+    }
+    if (follows_speed) {
+        acting_take_q27(&sim->speed, sim->input.holds_speed ? sim->input.speed_q27
+                                                            : acting_base_q27(&plan->speed, &sim->speed, sim->step));
+    }
 }
 
 static void hand_over(struct sim *sim, const struct sim_plan *plan)
@@ -13,15 +41,10 @@ static void hand_over(struct sim *sim, const struct sim_plan *plan)
     const bool follows_load = begins_to_follow(&sim->plan->load, &plan->load);
     const bool follows_speed = begins_to_follow(&sim->plan->speed, &plan->speed);
 
-    if (follows_load && plan->arithmetic == ARITH_Q27) {
-        acting_take_q27(&sim->load, sim_load_q27(sim));
-    } else if (follows_load) {
-        acting_take_f32(&sim->load, sim_load_f32(sim));
-    }
-    if (follows_speed && plan->arithmetic == ARITH_Q27) {
-        acting_take_q27(&sim->speed, sim_speed_q27(sim));
-    } else if (follows_speed) {
-        acting_take_f32(&sim->speed, sim_speed_f32(sim));
+    if (plan->arithmetic == ARITH_Q27) {
+        hand_over_q27(sim, follows_load, follows_speed);
+    } else {
+        hand_over_f32(sim, follows_load, follows_speed);
     }
 }
 

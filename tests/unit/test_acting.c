@@ -232,6 +232,7 @@ static void check_live(float arith)
 {
     const struct input held = {.sets_load = true, .holds_load = true, .load = 0.8f, .load_q27 = 107374182};
     const struct input back = {.sets_load = true};
+    const uint32_t dither = (uint32_t)(0.5f * 5.5f * STEP_S * 4294967296.0f); /* of a turn, in the sixth step */
 
     start(UNIT_SET "N0 6 v0 4", arith);
     plants_run_steps(&plant, 100u);
@@ -248,6 +249,12 @@ static void check_live(float arith)
     plants_run_steps(&plant, 100u);
     tap_check(acting_is_steady(&plant.plan.load, &plant.sim.load, plant.sim.step, arith == (float)ARITH_Q27),
               "until nearly nothing is left");
+    start(UNIT_SET "N0 5 dither 2 f_dither 0.5 v0 4 v_dither 2 fv_dither 0.5", arith);
+    plants_run_steps(&plant, 5u);
+    apply(UNIT_SET "N0 5 lag 1e4 dither 2 f_dither 0.5 v0 4 speed inertia J 1e9 v_dither 2 fv_dither 0.5");
+    tap_check_close(load_now(), 5.0f + 2.0f * fmath_sine_turns(dither), 1e-3f,
+                    "a lag goes on from what acts without the dither");
+    tap_check_close(speed_now(), 4.0f + 2.0f * fmath_sine_turns(dither), 1e-3f, "and so does an inertia");
 }
 
 static enum error problem_of(const char *assignments)
@@ -275,6 +282,15 @@ static void check_refusals(void)
                   problem_of("N0 1 dither 1 N_max 2") == ERROR_OK &&
                   problem_of("N0 1 N_off 2 N_max 2.9") == ERROR_OUT_OF_SCALE,
               "what does not fit the scale");
+    tap_check(problem_of("load ramp N1 2000 t2 9 N_high 1") == ERROR_OUT_OF_SCALE &&
+                  problem_of("load sine fN 1 N1 2000 N_high 1") == ERROR_OUT_OF_SCALE &&
+                  problem_of("load pulses rise 9 N_off 2000 N_high 1") == ERROR_OUT_OF_SCALE &&
+                  problem_of("speed ramp v1 100 tv2 9 v_high 1 v_low -1") == ERROR_OUT_OF_SCALE &&
+                  problem_of("load ramp N1 59 t2 9 N_high 1") == ERROR_OK,
+              "a line of which the limits leave next to nothing");
+    tap_check(problem_of("load step N1 2000 t1 9 N_high 1") == ERROR_OK, "a jump is where it is");
+    tap_check(problem_of("speed inertia v0 5 v_off -4.5 v_max 1") == ERROR_OK,
+              "an inertia reaches no more than what it starts with");
 }
 
 void test_acting(void)

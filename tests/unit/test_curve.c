@@ -164,6 +164,14 @@ static void check_once(void)
     tap_check(load_at(29u) == load_at(0u) && load_at(1000000u) == load_at(0u) && plan.load.end < 33u, "and is over");
 }
 
+/* 1e4 s are 1e11 steps, later than any point in time. */
+static void check_rare(void)
+{
+    plan_of_table("m 1e-6 ke 1e6 mu_s 0.1 N_max 10 v_max 10 load pulses N0 1 N1 5 rise 1e-4 every 1e4",
+                  PARAMS_TABLE_LOAD, 0u, NULL);
+    tap_check(load_at(3000u) == 1.0f, "a pulse that never comes again is over in its time");
+}
+
 static void check_limits(void)
 {
     static const float points[][2] = {{0.0f, 0.0f}, {10.0f, 10.0f}, {10.0f, 1.0f}, {30.0f, 1.0f}};
@@ -186,5 +194,6 @@ void test_curve(void)
     check_speed_jump();
     check_pulses();
     check_once();
+    check_rare();
     check_limits();
 }

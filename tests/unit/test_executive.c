@@ -66,6 +66,22 @@ static void check_orders(void)
               "a set that is refused orders nothing");
 }
 
+/* The order takes the place of the plan before it, which must still be asked what acts. */
+static void check_going_on(void)
+{
+    plants_executive(&executive, "N0 1 v0 1");
+    executive_grant(&executive, 100u);
+    plants_ticks(&executive, 10u);
+    (void)plants_order(&executive, "N0 2", false, NULL);
+    plants_ticks(&executive, 10u);
+    (void)plants_order(&executive, "N0 1 lag 1e4 speed inertia J 1e6", false, NULL);
+    plants_ticks(&executive, 10u);
+    tap_check_close(executive.sim.f32.normal.n, 0.5f, 1e-3f,
+                    "a lag that an order brings goes on from the force that acts");
+    tap_check_close(executive.sim.f32.disc * executive.sim.plan->scale.speed_m_per_s, 1.0f, 1e-3f,
+                    "an inertia from the speed");
+}
+
 static void check_credit(void)
 {
     plants_executive(&executive, "N0 5");
@@ -140,6 +156,7 @@ void test_executive(void)
 {
     check_init();
     check_orders();
+    check_going_on();
     check_credit();
     check_hashes();
 }

@@ -28,24 +28,28 @@ static const double sticks_between[2] = {0.455, 1.54};
 #define LIMIT_PLACE 0.015
 #define LIMIT 2e-3
 #define NEAR 0.05
+#define NEARBY 0.15 /* a place of the coarsest sweep */
 
-static void sweep(struct lab *lab, int which, struct table *table)
+/* The sweep of one speed. Returns where it is largest. */
+static double sweep(struct lab *lab, int which, struct table *table)
 {
     const struct device_span span = {SETTLE_PERIODS, WINDOW_PERIODS, true};
     const bool is_small = lab_options(lab)->is_small;
-    size_t count;
+    size_t count, peak = 0;
 
     lab_table1(lab, "k 0 v0 %.9g", peaks[which].speed);
     const struct device_point *points = lab_scan(lab, is_small ? "kt 0.05 4.4 30" : "kt 0.05 4.4 175", &span, &count);
     for (size_t i = 0; i < count; i++) {
         table_add(lab, table,
                   (const double[]){(double)points[i].at[0], peaks[which].speed, lab_point_xpp_m(&points[i])});
+        peak = lab_point_xpp_m(&points[i]) > lab_point_xpp_m(&points[peak]) ? i : peak;
     }
     table_add(lab, table, (const double[]){(double)NAN, peaks[which].speed, (double)NAN});
+    return (double)points[peak].at[0];
 }
 
-/* The top of the curve, by a finer scan about it, and the size there. */
-static double peak_find(struct lab *lab, int which)
+/* The top of the curve, by a finer scan about where the sweep has it, and the size there. */
+static double peak_find(struct lab *lab, int which, double about)
 {
     const struct device_span span = {SETTLE_PERIODS, WINDOW_PERIODS, true};
     struct table table = table_begin("kt[N/m],xpp[m]");
@@ -53,8 +57,8 @@ static double peak_find(struct lab *lab, int which)
     size_t count;
 
     lab_table1(lab, "k 0 v0 %.9g", peaks[which].speed);
-    (void)snprintf(axis, sizeof axis, "kt %.9g %.9g %d", peaks[which].place - 0.1, peaks[which].place + 0.1,
-                   lab_options(lab)->is_small ? 21 : 41);
+    (void)snprintf(axis, sizeof axis, "kt %.9g %.9g %d", about - NEARBY, about + NEARBY,
+                   lab_options(lab)->is_small ? 31 : 61);
     const struct device_point *points = lab_scan(lab, axis, &span, &count);
     for (size_t i = 0; i < count; i++) {
         table_add(lab, &table, (const double[]){(double)points[i].at[0], lab_point_xpp_m(&points[i])});
@@ -144,8 +148,8 @@ void experiment_resonance(struct lab *lab)
     double places[SPEEDS], sticks[2];
 
     for (int i = 0; i < SPEEDS; i++) {
-        sweep(lab, i, &table);
-        places[i] = peak_find(lab, i);
+        const double about = sweep(lab, i, &table);
+        places[i] = peak_find(lab, i, about);
     }
     lab_table1(lab, "k 0");
     sticks[0] = lab_bisect(lab, 0.4, 0.6, HALVINGS, sticks_at);
