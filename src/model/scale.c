@@ -87,15 +87,32 @@ static struct params_problem check_lines(const struct params *params, const stru
 }
 
 /* Does what the set can reach lie inside the units? */
+/* What the profiles reach beyond N0 and v0 comes of several parameters: the reserve is named then. */
+static struct params_problem check_reach(const struct params *params, const struct scale *scale)
+{
+    const float load_n = scale_load_peak_n(params), load_max_n = scale->load_n / scale_peak_factor(params);
+    const float speed_m_per_s = scale_speed_peak_m_per_s(params);
+
+    if (load_n > scale->load_n) {
+        return params->load_n > load_max_n ? params_blame(ERROR_OUT_OF_SCALE, "N0", 0.0f, load_max_n)
+                                           : params_blame(ERROR_OUT_OF_SCALE, "N_max", load_n, 1e10f);
+    }
+    if (speed_m_per_s > scale->speed_m_per_s) {
+        return fmath_abs(params->speed_m_per_s) > scale->speed_m_per_s
+                   ? params_blame(ERROR_OUT_OF_SCALE, "v0", -scale->speed_m_per_s, scale->speed_m_per_s)
+                   : params_blame(ERROR_OUT_OF_SCALE, "v_max", speed_m_per_s, 1e4f);
+    }
+    return no_problem;
+}
+
 static struct params_problem check_fit(const struct params *params, const struct scale *scale)
 {
     const float stiffness_max = SCALE_STIFFNESS_MAX / (float)(1u << scale->length_shift);
 
-    if (scale_load_peak_n(params) > scale->load_n) {
-        return params_blame(ERROR_OUT_OF_SCALE, "N0", 0.0f, scale->load_n / scale_peak_factor(params));
-    }
-    if (scale_speed_peak_m_per_s(params) > scale->speed_m_per_s) {
-        return params_blame(ERROR_OUT_OF_SCALE, "v0", -scale->speed_m_per_s, scale->speed_m_per_s);
+    const struct params_problem problem = check_reach(params, scale);
+
+    if (problem.error != ERROR_OK) {
+        return problem;
     }
     if (!(scale->stiffness <= stiffness_max)) {
         return params_blame(ERROR_OUT_OF_SCALE, "kt", 0.0f,

@@ -70,7 +70,7 @@ void settings_get(struct console *console)
 /* What was typed for a parameter; empty if it was not named. */
 static struct token typed_value(const struct console *console, const struct params_info *info)
 {
-    struct token word = token_first(console->arguments);
+    struct token word = token_first(token_is(token_first(console->command), "set") ? console->arguments : "");
 
     for (; word.length != 0u; word = token_next(token_next(word))) {
         if (params_find(word.start, word.length) == info) {
