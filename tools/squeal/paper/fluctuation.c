@@ -99,8 +99,6 @@ void experiment_fluctuation(struct lab *lab)
               : loud[DEPTHS - 1] > 0    ? PAPER_IN_PART
                                         : PAPER_REFUTED,
               "fluctuation-size",
-              "without fluctuation the pad is at rest; a fluctuation of %g %% makes it squeal at %u of %u frequencies "
-              "from 0.05 fn "
-              "to 2.5 fn, one of %g %% at %u: near the frequency of the normal direction and that of the pad",
+              "a fluctuation of %g %% makes it squeal at %u of %u frequencies from 0.05 fn to 2.5 fn, one of %g %% at %u",
               100.0 * depths[0], loud[0], count, 100.0 * depths[DEPTHS - 1], loud[DEPTHS - 1]);
 }

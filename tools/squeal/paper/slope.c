@@ -67,9 +67,8 @@ static void judge_size(struct lab *lab, const struct table *table, size_t below)
               : early > 1.0 ? PAPER_IN_PART
                             : PAPER_REFUTED,
               "slope-size",
-              "from %.4g s/m to %.4g s/m the size on the attractor falls to %.4g of itself, as mu_s + alpha v0 does; "
-              "only the "
-              "transient lasts longer, so that a picture of the first %d periods is %.3g times as large",
+              "from %.4g s/m to %.4g s/m the size on the attractor becomes %.4g of itself; a picture of the first %d "
+              "periods, in which the transient still lasts, is %.3g times as large",
               table_at(table, 0, COLUMN_SLOPE), table_at(table, below - 1, COLUMN_SLOPE), late, EARLY_PERIODS, early);
 }
 
@@ -114,6 +113,7 @@ static void draw_parting(struct lab *lab, const struct table *table, const doubl
 
 static void judge_beyond(struct lab *lab, const struct table *table, size_t below, double change)
 {
+    bool has_begun;
     static const double slopes[PARTS] = {0.02, 0.04, 0.1};
     struct table parting = table_begin("period,slope[s/m],distance[m]");
     double fastest = -(double)INFINITY;
@@ -131,16 +131,17 @@ static void judge_beyond(struct lab *lab, const struct table *table, size_t belo
     for (size_t row = below; row < table->rows; row++) {
         aperiodic += table_at(table, row, COLUMN_APERIODIC) > 0.0 ? 1 : 0;
     }
-    const bool has_begun = 2 * aperiodic > table->rows - below && fabs(change / CHANGE - 1.0) < NEAR;
-    lab_claim(lab, "beyond-slope",
-              !has_begun                 ? PAPER_REFUTED
-              : fastest > LIMIT_EXPONENT ? PAPER_HOLDS
-                                         : PAPER_IN_PART,
-              "parting",
-              "from %.5g s/m on, where N |alpha| = c, %zu of %zu motions have no period; quasi-periodic, not chaotic: "
-              "two plants "
-              "that start 1 mm apart do not part faster than %.1g a period",
-              change, aperiodic, table->rows - below, fastest);
+    has_begun = 2 * aperiodic > table->rows - below && fabs(change / CHANGE - 1.0) < NEAR;
+    lab_claim(
+        lab, "beyond-slope",
+        !has_begun                 ? PAPER_REFUTED
+        : fastest > LIMIT_EXPONENT ? PAPER_HOLDS
+                                   : PAPER_IN_PART,
+        "parting",
+        "from %.5g s/m on, where N |alpha| = c, %zu of %zu motions have no period; two plants that start 1 mm apart "
+        "part by no more than %.1g of their distance a period: %s",
+        change, aperiodic, table->rows - below, fastest,
+        fastest > LIMIT_EXPONENT ? "chaotic" : "quasi-periodic, not chaotic");
 }
 
 void experiment_slope(struct lab *lab)
