@@ -58,6 +58,10 @@ void detector_reset(struct detector *detector, const struct detector_config *con
     detector->v1 = now->v;
     detector->level = 0;
     detector->verdict = (struct detector_verdict){0};
+    for (unsigned i = 0u; i < DETECTOR_WINDOW_FRAMES; i++) {
+        detector->frames[i] =
+            empty_frame; /* the line of growth is drawn through all of them, also before they are filled */
+    }
     detector_restart(detector, config);
 }
 
