@@ -30,7 +30,6 @@ enum {
 
 /* One thing that main asks of the interrupt, whole or not at all. */
 struct executive_order {
-    struct sim_plan plan;
     bool is_reset;          /* start again from the plan's initial state; else take it over between two steps */
     bool is_restore;        /* of a reset: from the state in the image instead */
     bool is_snapshot;       /* take the state into the image */
@@ -39,6 +38,7 @@ struct executive_order {
     uint32_t sample_every;  /* steps between samples; 0 none */
     uint32_t substeps;      /* steps a tick */
     uint8_t epoch;          /* of the reset that this order belongs to */
+    struct sim_plan plan;   /* last: it is long */
 };
 
 /* What the interrupt's time went into. Clock counts are those of the program's clock. */
@@ -68,28 +68,30 @@ struct executive_report {
 };
 
 struct executive {
-    struct sim sim;                      /* interrupt */
-    struct executive_load load;          /* interrupt */
-    struct executive_order in_force;     /* interrupt */
-    uint32_t until_sample, until_report; /* interrupt */
-    uint32_t to_shed;                    /* interrupt: ticks to skip after an overrun */
-    struct input_queue inputs_waiting;   /* interrupt: out of the ring, their steps not reached */
-
-    struct executive_order orders[2]; /* handed over by publish */
-    struct publish publish;
-    struct executive_report report_store; /* handed over by handoff */
-    struct handoff handoff;
-    struct sample sample_store[EXECUTIVE_SAMPLES];
-    struct ring samples;
-    struct input input_store[EXECUTIVE_INPUTS];
-    struct ring inputs;
-    uint8_t image[SNAPSHOT_SIZE]; /* whose it is: main's, but for the one that an order waits to be made of or into */
+    /* the interrupt's, what each tick reads first: it lies near */
+    struct sim sim;
+    struct executive_load load;
+    uint32_t until_sample, until_report;
+    uint32_t to_shed; /* ticks to skip after an overrun */
 
     /* single words, one writer each */
     struct word granted;       /* main: steps granted so far */
     struct word used;          /* interrupt: steps of it used */
     struct word is_free;       /* main: endless credit */
     struct word inputs_queued; /* interrupt: demands that wait for their step */
+
+    struct publish publish; /* main's orders */
+    struct handoff handoff; /* the interrupt's reports */
+    struct ring samples, inputs;
+    struct executive_order in_force;   /* interrupt */
+    struct input_queue inputs_waiting; /* interrupt: out of the ring, their steps not reached */
+
+    /* what lies behind the ways across */
+    struct executive_order orders[2];
+    struct executive_report report_store;
+    struct sample sample_store[EXECUTIVE_SAMPLES];
+    struct input input_store[EXECUTIVE_INPUTS];
+    uint8_t image[SNAPSHOT_SIZE]; /* whose it is: main's, but for the one that an order waits to be made of or into */
 
     /* main's own */
     float arithmetic;             /* of the defaults on this board */

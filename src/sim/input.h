@@ -66,8 +66,8 @@ void input_take(struct input_state *state, const struct input *input);
 
 /* Inputs in the order of their steps; of those for the same step, in the order in which they came. */
 struct input_queue {
-    struct input waiting[INPUT_QUEUE_MAX];
     uint32_t count;
+    struct input waiting[INPUT_QUEUE_MAX];
 };
 
 /* Puts one in its place; the caller looks for room first. [ISR] */
