@@ -31,23 +31,26 @@ static uint32_t count_tick(uint32_t now)
     return elapsed;
 }
 
+static void work(uint32_t entered)
+{
+    struct executive_tick_time time = {.elapsed = count_tick(entered), .period = timer.period};
+    const bool has_worked = executive_tick(executive, true);
+
+    time.busy = hal_clock_now() - entered;
+    executive_book(executive, &time, has_worked && hal_tick_is_late());
+    if (!executive_wants_tick(executive)) {
+        hal_tick_stop();
+    }
+}
+
 void app_tick(void)
 {
     const uint32_t entered = hal_clock_now();
-    const bool is_due = hal_tick_take();
-    struct executive_tick_time time = {.period = timer.period};
-    bool has_worked;
 
-    if (is_due) {
-        time.elapsed = count_tick(entered);
-    }
-    has_worked = executive_tick(executive, is_due);
-    if (is_due) {
-        time.busy = hal_clock_now() - entered;
-        executive_book(executive, &time, has_worked && hal_tick_is_late());
-        if (!executive_wants_tick(executive)) {
-            hal_tick_stop();
-        }
+    if (hal_tick_take()) {
+        work(entered);
+    } else {
+        (void)executive_tick(executive, false);
     }
     hal_flag_set(executive_is_squealing(executive));
 }

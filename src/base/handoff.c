@@ -13,17 +13,26 @@ void handoff_init(struct handoff *handoff, void *storage, size_t size)
     handoff->sequence = 0u;
 }
 
-void handoff_write(struct handoff *handoff, const void *value)
+void *handoff_open(struct handoff *handoff)
 {
-    uint32_t sequence = handoff->sequence;
-
-    handoff->sequence = sequence + 1u;
+    handoff->sequence = handoff->sequence + 1u;
     BASE_BARRIER();
-    memcpy(handoff->record, value, handoff->size);
+    return handoff->record;
+}
+
+void handoff_close(struct handoff *handoff)
+{
+    const uint32_t sequence = handoff->sequence + 1u;
+
     BASE_BARRIER();
     /* After a wrap 0 would mean "no value yet". */
-    sequence += 2u;
     handoff->sequence = sequence != 0u ? sequence : 2u;
+}
+
+void handoff_write(struct handoff *handoff, const void *value)
+{
+    memcpy(handoff_open(handoff), value, handoff->size);
+    handoff_close(handoff);
 }
 
 bool handoff_read(const struct handoff *handoff, void *value)
@@ -87,7 +96,7 @@ const void *publish_take(struct publish *publish)
 {
     const uint32_t generation = publish->generation;
 
-    if (generation == publish->taken) {
+    if (!publish_has_new(publish)) {
         return NULL;
     }
     BASE_BARRIER();

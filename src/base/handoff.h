@@ -32,6 +32,10 @@ void handoff_init(struct handoff *handoff, void *storage, size_t size);
 /* Makes the value at value the latest. Cost: one record copy. [writer, may be an ISR] */
 void handoff_write(struct handoff *handoff, const void *value);
 
+/* The same without the copy: the record, to be written into, all of it; then close. [writer] */
+void *handoff_open(struct handoff *handoff);
+void handoff_close(struct handoff *handoff);
+
 /* Copies the latest value out, all of it from one write. False, and *value as it was, before the first write. Cost: one
  * copy, and one more for each write that came in between. [reader] */
 bool handoff_read(const struct handoff *handoff, void *value);
@@ -55,6 +59,9 @@ void *publish_back(struct publish *publish);
 
 /* Publishes the record from publish_back() and returns its generation, counted from 1. [MAIN] */
 uint32_t publish_commit(struct publish *publish);
+
+/* Is there a record that has not been taken? [ANY] */
+static inline bool publish_has_new(const struct publish *publish) { return publish->generation != publish->taken; }
 
 /* The new record, which stays untouched until the next one is taken; NULL if there is nothing new. [ISR] */
 const void *publish_take(struct publish *publish);

@@ -4,10 +4,7 @@
 #include "base/assert.h"
 #include "base/mem.h"
 
-bool executive_has_order(const struct executive *executive)
-{
-    return publish_taken(&executive->publish) != executive->publish.generation;
-}
+bool executive_has_order(const struct executive *executive) { return publish_has_new(&executive->publish); }
 
 /* A plan to look at before it is ordered, in the place of the order that comes next: it is too large for the stack. */
 static struct sim_plan *candidate(struct executive *executive)
@@ -213,11 +210,6 @@ uint32_t executive_credit(const struct executive *executive)
 
     /* Taken back while the interrupt used some of it: less than nothing is nothing. */
     return word_read(&executive->is_free) != 0u || credit > EXECUTIVE_GRANT_MAX ? 0u : credit;
-}
-
-bool executive_wants_tick(const struct executive *executive)
-{
-    return word_read(&executive->is_free) != 0u || executive_credit(executive) != 0u;
 }
 
 const struct params *executive_params(const struct executive *executive) { return &executive->draft.plan.params; }

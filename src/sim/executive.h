@@ -156,7 +156,10 @@ void executive_halt(struct executive *executive);
 uint32_t executive_credit(const struct executive *executive);
 
 /* Should the timer run? [ANY] */
-bool executive_wants_tick(const struct executive *executive);
+static inline bool executive_wants_tick(const struct executive *executive)
+{
+    return word_read(&executive->is_free) != 0u || executive_credit(executive) != 0u;
+}
 
 /* The set last ordered, and its plan. [MAIN] */
 const struct params *executive_params(const struct executive *executive);
@@ -187,9 +190,12 @@ struct executive_tick_time {
 void executive_book(struct executive *executive, const struct executive_tick_time *time, bool is_late);
 
 /* Ticks are being shed after an overrun. [ISR] */
-bool executive_is_behind(const struct executive *executive);
+static inline bool executive_is_behind(const struct executive *executive) { return executive->to_shed != 0u; }
 
 /* The propensity at this step, for the pin. [ISR] */
-bool executive_is_squealing(const struct executive *executive);
+static inline bool executive_is_squealing(const struct executive *executive)
+{
+    return executive->sim.detector.verdict.propensity == PROPENSITY_SQUEAL;
+}
 
 #endif

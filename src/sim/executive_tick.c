@@ -1,30 +1,32 @@
 /* The interrupt's side of the executive: orders taken, demands taken, steps made, all of it reported. */
 #include "sim/executive.h"
 
+#include "base/compiler.h"
+
 enum {
     TICKS_PER_REPORT = 32, /* of a free run without news */
     MAIN_SHARE = 16        /* a tick that leaves main less than this part of its period counts as overrun */
 };
 
-static void write_report(struct executive *executive)
+static BASE_NOINLINE void write_report(struct executive *executive)
 {
     const struct sim *sim = &executive->sim;
-    struct executive_report report;
+    struct executive_report *report = handoff_open(&executive->handoff);
 
-    sim_sample(sim, &report.now);
-    report.now.epoch = executive->in_force.epoch;
-    report.counters = sim->counters;
-    report.verdict = sim->detector.verdict;
-    report.measure = sim->measure;
-    report.load = executive->load;
-    report.has_v10 = sim->has_v10;
-    report.v10_step = sim->v10_step;
-    report.v10_fraction_q15 = sim->v10_fraction_q15;
-    report.generation = publish_taken(&executive->publish);
-    report.input = sim->input;
-    report.stales = sim->watch.stales;
-    report.safes = sim->watch.safes;
-    handoff_write(&executive->handoff, &report);
+    sim_sample(sim, &report->now);
+    report->now.epoch = executive->in_force.epoch;
+    report->counters = sim->counters;
+    report->verdict = sim->detector.verdict;
+    report->measure = sim->measure;
+    report->load = executive->load;
+    report->has_v10 = sim->has_v10;
+    report->v10_step = sim->v10_step;
+    report->v10_fraction_q15 = sim->v10_fraction_q15;
+    report->generation = publish_taken(&executive->publish);
+    report->input = sim->input;
+    report->stales = sim->watch.stales;
+    report->safes = sim->watch.safes;
+    handoff_close(&executive->handoff);
     executive->until_report = TICKS_PER_REPORT;
 }
 
@@ -45,7 +47,7 @@ static void push_sample(struct executive *executive)
 }
 
 /* Those whose step has come. The safe state voids all that wait: after it only what comes anew may act. */
-static void take_due_inputs(struct executive *executive)
+static BASE_NOINLINE void take_due_inputs(struct executive *executive)
 {
     struct input_queue *waiting = &executive->inputs_waiting;
     struct input input;
@@ -61,13 +63,10 @@ static void take_due_inputs(struct executive *executive)
 }
 
 /* New demands take hold or find their places, for which main keeps room. What belongs to the run before a reset is void. */
-static void collect_inputs(struct executive *executive)
+static BASE_NOINLINE void collect_inputs(struct executive *executive)
 {
     struct input input;
 
-    if (executive->inputs_waiting.count == 0u && ring_fill(&executive->inputs) == 0u) {
-        return;
-    }
     take_due_inputs(executive);
     while (ring_pop(&executive->inputs, &input)) {
         if (input.epoch != executive->in_force.epoch) {
@@ -80,6 +79,12 @@ static void collect_inputs(struct executive *executive)
         }
     }
     word_write(&executive->inputs_queued, executive->inputs_waiting.count);
+}
+
+/* The usual tick has none. */
+BASE_INLINE bool has_inputs(const struct executive *executive)
+{
+    return executive->inputs_waiting.count != 0u || ring_fill(&executive->inputs) != 0u;
 }
 
 static void take_reset(struct executive *executive, const struct executive_order *order)
@@ -95,14 +100,11 @@ static void take_reset(struct executive *executive, const struct executive_order
     word_write(&executive->inputs_queued, executive->inputs_waiting.count);
 }
 
-static void take_order(struct executive *executive)
+static BASE_NOINLINE void take_order(struct executive *executive)
 {
     const struct executive_order *order = publish_take(&executive->publish);
     const uint32_t every_before = executive->in_force.sample_every;
 
-    if (order == NULL) {
-        return;
-    }
     if (order->is_new_plan && !order->is_reset) {
         sim_apply(&executive->sim, &order->plan); /* which asks the plan before it, and that is in force until here */
     }
@@ -125,13 +127,6 @@ static void take_order(struct executive *executive)
     write_report(executive);
 }
 
-static uint32_t steps_due(const struct executive *executive)
-{
-    const uint32_t credit = word_read(&executive->is_free) != 0u ? UINT32_MAX : executive_credit(executive);
-
-    return credit < executive->in_force.substeps ? credit : executive->in_force.substeps;
-}
-
 /* In free run the controller is asked by the wall's time, and that passes without steps too. */
 static void pass_time(struct executive *executive, uint32_t ticks)
 {
@@ -141,14 +136,14 @@ static void pass_time(struct executive *executive, uint32_t ticks)
 }
 
 /* One step, and before it whatever belongs to it. Returns true when the detector has a new verdict. */
-static bool make_step(struct executive *executive, const struct watch_pace *pace)
+BASE_INLINE bool make_step(struct executive *executive, const struct watch_pace *pace)
 {
     bool has_news;
 
-    if (executive->inputs_waiting.count != 0u) {
+    if (BASE_UNLIKELY(executive->inputs_waiting.count != 0u)) {
         take_due_inputs(executive);
     }
-    if (executive->sim.watch.state != WATCH_OFF) {
+    if (BASE_UNLIKELY(executive->sim.watch.state != WATCH_OFF)) {
         sim_watch(&executive->sim, pace);
     }
     has_news = sim_step(&executive->sim);
@@ -158,41 +153,68 @@ static bool make_step(struct executive *executive, const struct watch_pace *pace
     return has_news;
 }
 
-bool executive_tick(struct executive *executive, bool is_due)
+static bool make_steps(struct executive *executive, uint32_t steps, const struct watch_pace *pace)
 {
-    const struct watch_config *watch = &executive->in_force.plan.watch;
-    const struct watch_pace *pace;
-    uint8_t watch_before;
-    uint32_t steps;
     bool has_news = false;
 
-    take_order(executive);
-    watch_before = executive->sim.watch.state;
-    if (!is_due) {
+    for (; steps > 0u; steps--) {
+        has_news = make_step(executive, pace) || has_news;
+    }
+    return has_news;
+}
+
+/* As many steps as are due, in free run or by credit. Returns true when the detector has a new verdict. */
+BASE_INLINE bool make_due_steps(struct executive *executive)
+{
+    const struct watch_config *watch = &executive->in_force.plan.watch;
+    uint32_t steps = executive->in_force.substeps;
+    bool has_news;
+
+    if (word_read(&executive->is_free) != 0u) {
+        return make_steps(executive, steps, &watch->free);
+    }
+    steps = executive_credit(executive) < steps ? executive_credit(executive) : steps;
+    has_news = make_steps(executive, steps, &watch->locked);
+    word_write(&executive->used, word_read(&executive->used) + steps);
+    return has_news;
+}
+
+/* A tick of no period: main has called for it. */
+static BASE_NOINLINE void answer_call(struct executive *executive, uint8_t watch_before)
+{
+    if (has_inputs(executive)) {
         collect_inputs(executive);
-        if (executive->sim.watch.state != watch_before) {
-            write_report(executive);
-        }
+    }
+    if (executive->sim.watch.state != watch_before) {
+        write_report(executive);
+    }
+}
+
+bool executive_tick(struct executive *executive, bool is_due)
+{
+    uint8_t watch_before;
+    bool has_news;
+
+    if (BASE_UNLIKELY(publish_has_new(&executive->publish))) {
+        take_order(executive);
+    }
+    watch_before = executive->sim.watch.state;
+    if (BASE_UNLIKELY(!is_due)) {
+        answer_call(executive, watch_before);
         return false;
     }
-    if (executive->to_shed != 0u) {
+    if (BASE_UNLIKELY(executive->to_shed != 0u)) {
         executive->to_shed--;
         executive->load.shed++;
         pass_time(executive, 1u);
         return false;
     }
-    collect_inputs(executive); /* none comes meanwhile */
-    pace = word_read(&executive->is_free) != 0u ? &watch->free : &watch->locked;
-    steps = steps_due(executive);
-    for (uint32_t i = 0u; i < steps; i++) {
-        has_news = make_step(executive, pace) || has_news;
+    if (BASE_UNLIKELY(has_inputs(executive))) {
+        collect_inputs(executive); /* none comes meanwhile */
     }
-    if (word_read(&executive->is_free) == 0u) {
-        word_write(&executive->used, word_read(&executive->used) + steps);
-    }
+    has_news = make_due_steps(executive) || executive->sim.watch.state != watch_before;
     executive->load.ticks++;
-    has_news = has_news || executive->sim.watch.state != watch_before;
-    if (has_news || --executive->until_report == 0u || !executive_wants_tick(executive)) {
+    if (BASE_UNLIKELY(has_news || --executive->until_report == 0u || !executive_wants_tick(executive))) {
         write_report(executive);
     }
     return true;
@@ -221,11 +243,4 @@ void executive_book(struct executive *executive, const struct executive_tick_tim
     if (!executive_wants_tick(executive)) {
         write_report(executive); /* the last tick's time is in it too */
     }
-}
-
-bool executive_is_behind(const struct executive *executive) { return executive->to_shed != 0u; }
-
-bool executive_is_squealing(const struct executive *executive)
-{
-    return executive->sim.detector.verdict.propensity == PROPENSITY_SQUEAL;
 }
