@@ -8,6 +8,8 @@
 
 enum { V10_RATIO = 10 };
 
+#define SPEED_LIMIT_Q27 ((uint32_t)(SCALE_FAULT_SPEED * (float)(1 << PLANT_FRACTION_BITS)) - 1u)
+
 /* --- The two arithmetics ------------------------------------------------------------------------------------------ */
 
 static BASE_NOINLINE void renew_texture(struct sim *sim, int32_t disc)
@@ -99,32 +101,42 @@ static void reset_plant(struct sim *sim)
 }
 
 /* Whatever leaves the domain leaves the output's range first, but for the speed, which has a limit inside it. */
-BASE_INLINE bool may_be_outside(const struct plant_output *output)
+static bool may_be_outside(const struct plant_output *output)
 {
-    return output->is_saturated ||
-           fixed_abs(output->v) > (uint32_t)(SCALE_FAULT_SPEED * (float)(1 << PLANT_FRACTION_BITS)) - 1u;
+    return output->is_saturated || fixed_abs(output->v) > SPEED_LIMIT_Q27;
 }
 
-/* Returns false when the plant has left its domain. */
-BASE_INLINE bool advance_q27(struct sim *sim)
-{
-    const struct step_q27_input input = input_q27(sim);
-
-    step_q27_advance(&sim->q27, &sim->plan->q27, input.load, input.speed, &sim->output);
-    return !step_q27_is_outside(&sim->q27);
-}
-
-static BASE_NOINLINE bool advance_f32(struct sim *sim)
+static BASE_NOINLINE void advance_f32(struct sim *sim)
 {
     const struct step_f32_input input = input_f32(sim);
 
     step_f32_advance(&sim->f32, &sim->plan->f32, input.load, input.speed, &sim->output);
-    return !may_be_outside(&sim->output) || !step_f32_is_outside(&sim->f32);
 }
 
-BASE_INLINE bool advance_plant(struct sim *sim)
+static BASE_NOINLINE void advance_q27(struct sim *sim)
 {
-    return sim->plan->arithmetic == ARITH_Q27 ? advance_q27(sim) : advance_f32(sim);
+    const struct step_q27_input input = input_q27(sim);
+
+    step_q27_advance(&sim->q27, &sim->plan->q27, input.load, input.speed, &sim->output);
+}
+
+/* Under the load and the speed of the step before. */
+BASE_INLINE void advance_alike(struct sim *sim)
+{
+    struct step_q27 *const q27 = &sim->q27;
+    struct step_f32 *const f32 = &sim->f32;
+
+    if (sim->plan->arithmetic == ARITH_Q27) {
+        step_q27_advance(q27, &sim->plan->q27, q27->normal.n, q27->disc, &sim->output);
+    } else {
+        step_f32_advance(f32, &sim->plan->f32, f32->normal.n, f32->disc, &sim->output);
+    }
+}
+
+static bool is_outside(const struct sim *sim)
+{
+    return sim->plan->arithmetic == ARITH_Q27 ? step_q27_is_outside(&sim->q27)
+                                              : may_be_outside(&sim->output) && step_f32_is_outside(&sim->f32);
 }
 
 /* The states as words, in the order in which they are hashed. */
@@ -161,6 +173,7 @@ static void sample_forces(const struct sim *sim, struct sample *sample)
 void sim_reset(struct sim *sim, const struct sim_plan *plan)
 {
     sim->plan = plan;
+    sim->is_usual = false;
     sim->step = 0u;
     sim->hash = HASH_INIT;
     sim->fault = SIM_FAULT_NONE;
@@ -191,17 +204,19 @@ static BASE_NOINLINE void book_v10(struct sim *sim, uint32_t before, uint32_t no
 }
 
 /* The disc's speed is within 1 but for rounding, and ten times that fits. */
-BASE_INLINE void watch_v10(struct sim *sim, int32_t v_before)
+static uint32_t v10_limit(const struct sim *sim) { return fixed_abs(sim->output.disc) * V10_RATIO; }
+
+static void watch_v10(struct sim *sim, int32_t v_before)
 {
-    const uint32_t limit = fixed_abs(sim->output.disc) * V10_RATIO;
+    const uint32_t limit = v10_limit(sim);
     const uint32_t now = fixed_abs(sim->output.v);
 
-    if (BASE_UNLIKELY(now > limit)) {
+    if (now > limit) {
         book_v10(sim, fixed_abs(v_before), now, limit);
     }
 }
 
-static BASE_NOINLINE void count_events(struct sim *sim)
+static void count_events(struct sim *sim)
 {
     const struct plant_output *output = &sim->output;
 
@@ -212,15 +227,92 @@ static BASE_NOINLINE void count_events(struct sim *sim)
     sim->counters.gap_held += output->is_gap_held;
 }
 
-/* Most steps have nothing to count. */
-BASE_INLINE void count(struct sim *sim)
+/* Books what a step has brought. Returns false when the plant has left its domain with it: then it stands. */
+static BASE_NOINLINE bool look_closer(struct sim *sim, int32_t v_before)
 {
-    const struct plant_output *output = &sim->output;
-
-    if (BASE_UNLIKELY((output->events | output->is_capped | output->is_saturated | output->is_lifted |
-                       output->is_gap_held) != 0)) {
-        count_events(sim);
+    watch_v10(sim, v_before);
+    count_events(sim);
+    if (!is_outside(sim)) {
+        return true;
     }
+    sim->fault = SIM_FAULT_DOMAIN;
+    sim->is_usual = false;
+    detector_set_diverged(&sim->detector);
+    return false;
+}
+
+/* --- The usual step ----------------------------------------------------------------------------------------------- */
+
+/* Load and speed stand, nothing has a state, nobody measures, a controller is not silent: there is no more to a step than
+ * plant, detector and hash. Asked at the end of a step for all that follow; whatever may change one of these clears
+ * is_usual, so that it is asked anew. */
+static bool will_be_usual(const struct sim *sim)
+{
+    const struct sim_plan *plan = sim->plan;
+    const bool has_load = sim->input.holds_load || sim->step > plan->load.end;
+    const bool has_speed = sim->input.holds_speed || sim->step > plan->speed.end;
+
+    return has_load && has_speed && !plan->has_state && !plan->texture.is_active && plan->texture.runout == 0 &&
+           !watch_is_silent(sim->watch.state) && !measure_is_active(&sim->measure);
+}
+
+static uint32_t usual_speed(const struct sim *sim)
+{
+    const uint32_t limit = v10_limit(sim);
+
+    return limit < SPEED_LIMIT_Q27 ? limit : SPEED_LIMIT_Q27;
+}
+
+/* Most steps have nothing to count. */
+BASE_INLINE bool has_notes(const struct plant_output *output)
+{
+    return (output->events | output->is_capped | output->is_saturated | output->is_lifted | output->is_gap_held) != 0;
+}
+
+BASE_INLINE bool step_usual(struct sim *sim)
+{
+    const int32_t v_before = sim->output.v;
+
+    advance_alike(sim);
+    if (BASE_UNLIKELY(has_notes(&sim->output) || fixed_abs(sim->output.v) > sim->usual_speed) &&
+        !look_closer(sim, v_before)) {
+        return true;
+    }
+    sim->step++;
+    return detector_push(&sim->detector, &sim->output);
+}
+
+static BASE_NOINLINE bool step_any(struct sim *sim)
+{
+    const int32_t v_before = sim->output.v;
+    bool has_verdict;
+
+    if (sim->fault != SIM_FAULT_NONE) {
+        return false;
+    }
+    if (sim->plan->arithmetic == ARITH_Q27) {
+        advance_q27(sim);
+    } else {
+        advance_f32(sim);
+    }
+    if (!look_closer(sim, v_before)) {
+        return true;
+    }
+    if (sim->plan->has_state) {
+        follow(sim);
+    }
+    sim->step++;
+    if (sim->plan->texture.runout != 0) {
+        texture_turn(&sim->plan->texture, &sim->angle, sim->output.disc);
+    }
+    has_verdict = !watch_is_silent(sim->watch.state) ? detector_push(&sim->detector, &sim->output)
+                                                     : detector_skip(&sim->detector, &sim->output);
+    if (measure_is_active(&sim->measure)) {
+        measure_push(&sim->measure, &sim->output);
+    }
+    sim->is_usual = will_be_usual(sim);
+    sim->usual_speed = usual_speed(sim);
+    return has_verdict;
 }
 
 BASE_INLINE uint32_t hash_state(const struct sim *sim)
@@ -236,37 +328,7 @@ BASE_INLINE uint32_t hash_state(const struct sim *sim)
     return hash_word(hash, (uint32_t)(int32_t)sim->output.mode);
 }
 
-bool sim_step_unhashed(struct sim *sim)
-{
-    const int32_t v_before = sim->output.v;
-    bool has_verdict;
-    bool is_inside;
-
-    if (sim->fault != SIM_FAULT_NONE) {
-        return false;
-    }
-    is_inside = advance_plant(sim);
-    watch_v10(sim, v_before);
-    count(sim);
-    if (!is_inside) {
-        sim->fault = SIM_FAULT_DOMAIN;
-        detector_set_diverged(&sim->detector);
-        return true;
-    }
-    if (sim->plan->has_state) {
-        follow(sim);
-    }
-    sim->step++;
-    if (sim->plan->texture.runout != 0) {
-        texture_turn(&sim->plan->texture, &sim->angle, sim->output.disc);
-    }
-    has_verdict = !watch_is_silent(sim->watch.state) ? detector_push(&sim->detector, &sim->output)
-                                                     : detector_skip(&sim->detector, &sim->output);
-    if (BASE_UNLIKELY(measure_is_active(&sim->measure))) {
-        measure_push(&sim->measure, &sim->output);
-    }
-    return has_verdict;
-}
+bool sim_step_unhashed(struct sim *sim) { return BASE_LIKELY(sim->is_usual) ? step_usual(sim) : step_any(sim); }
 
 bool sim_step(struct sim *sim)
 {
@@ -281,6 +343,7 @@ bool sim_step(struct sim *sim)
 void sim_measure(struct sim *sim, uint64_t steps)
 {
     measure_start(&sim->measure, &sim->output, steps, sim->plan->detector.step_q27);
+    sim->is_usual = false;
 }
 
 void sim_sample(const struct sim *sim, struct sample *sample)

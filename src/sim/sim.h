@@ -70,9 +70,11 @@ struct sim {
     struct measure measure;
     struct sim_counters counters;
     uint64_t step;
-    uint32_t hash; /* of every state since reset, but the disc's angle: what that does is in y one step later */
-    uint8_t fault; /* enum sim_fault */
-    bool has_v10;  /* |v| has passed ten times the disc's speed: first time, in steps and 2^-15 steps */
+    uint32_t hash;        /* of every state since reset, but the disc's angle: what that does is in y one step later */
+    uint8_t fault;        /* enum sim_fault */
+    bool is_usual;        /* the step to come is like the one before: sim.c, "The usual step" */
+    uint32_t usual_speed; /* and what |v| stays within meanwhile */
+    bool has_v10;         /* |v| has passed ten times the disc's speed: first time, in steps and 2^-15 steps */
     uint64_t v10_step;
     uint32_t v10_fraction_q15;
 };

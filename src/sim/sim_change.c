@@ -74,6 +74,7 @@ void sim_apply(struct sim *sim, const struct sim_plan *plan)
 
     hand_over(sim, plan);
     sim->plan = plan;
+    sim->is_usual = false;
     config = detector_config_now(sim);
     if (sim->input.holds_load && sim->input.load > plan->load_limit) {
         lower(&sim->input.load, &sim->input.load_q27, plan);
@@ -98,6 +99,7 @@ void sim_input(struct sim *sim, const struct input *input)
     sim->counters.inputs += is_demand ? 1u : 0u;
     sim->counters.inputs_late += is_demand && input->step != INPUT_NOW && input->step < sim->step ? 1u : 0u;
     input_take(&sim->input, input);
+    sim->is_usual = false;
     if (is_safe || is_demand) {
         watch_hear(&sim->watch, &sim->plan->watch, is_held(sim));
     }
@@ -137,6 +139,7 @@ void sim_watch(struct sim *sim, const struct watch_pace *pace)
         return;
     }
     watch_advance(&sim->watch, &sim->plan->watch, pace);
+    sim->is_usual = sim->is_usual && !watch_is_silent(sim->watch.state);
     if (sim->watch.state == WATCH_SAFE) {
         if (before != WATCH_SAFE) {
             begin_safe_state(sim);
@@ -153,5 +156,6 @@ void sim_watch(struct sim *sim, const struct watch_pace *pace)
 void sim_resume(struct sim *sim, const struct sim_plan *plan)
 {
     sim->plan = plan;
+    sim->is_usual = false;
     sim->detector.config = detector_config_now(sim);
 }
