@@ -4,11 +4,6 @@
 #include "base/compiler.h"
 #include "base/mem.h"
 
-static uint8_t *slot(const struct ring *ring, uint32_t index)
-{
-    return ring->records + (size_t)(index & (ring->capacity - 1u)) * ring->record_size;
-}
-
 void ring_init(struct ring *ring, void *storage, size_t record_size, uint32_t capacity)
 {
     BASE_ASSERT(capacity != 0u && (capacity & (capacity - 1u)) == 0u);
@@ -18,23 +13,6 @@ void ring_init(struct ring *ring, void *storage, size_t record_size, uint32_t ca
     ring->head = 0u;
     ring->tail = 0u;
     ring->dropped = 0u;
-}
-
-void *ring_reserve(struct ring *ring)
-{
-    const uint32_t head = ring->head;
-
-    if (head - ring->tail == ring->capacity) {
-        ring->dropped++;
-        return NULL;
-    }
-    return slot(ring, head);
-}
-
-void ring_commit(struct ring *ring)
-{
-    BASE_BARRIER();
-    ring->head = ring->head + 1u;
 }
 
 bool ring_push(struct ring *ring, const void *record)
@@ -57,7 +35,7 @@ bool ring_pop(struct ring *ring, void *record)
         return false;
     }
     BASE_BARRIER();
-    memcpy(record, slot(ring, tail), ring->record_size);
+    memcpy(record, ring_slot(ring, tail), ring->record_size);
     BASE_BARRIER();
     ring->tail = tail + 1u;
     return true;

@@ -324,6 +324,7 @@ int32_t step_q27_friction(const struct step_q27 *state, const struct step_q27_co
 {
     const int32_t p = normal_q27_force(&state->normal, state->normal.y);
     const int32_t sign = state->mode;
+    int32_t size;
     int64_t ratio;
 
     if (sign == PLANT_STICK) {
@@ -334,5 +335,6 @@ int32_t step_q27_friction(const struct step_q27 *state, const struct step_q27_co
     if (coeffs->has_floor && ratio < coeffs->floor) {
         ratio = coeffs->floor;
     }
-    return fixed_saturate(sign * fixed_shift_right((int64_t)fixed_saturate(ratio) * p, 27u));
+    size = fixed_saturate(fixed_shift_right((int64_t)fixed_saturate(ratio) * p, 27u));
+    return sign < 0 ? -size : size;
 }
