@@ -37,8 +37,7 @@ static void work(uint32_t entered)
     const bool has_worked = executive_tick(executive, true);
 
     time.busy = hal_clock_now() - entered;
-    executive_book(executive, &time, has_worked && hal_tick_is_late());
-    if (!executive_wants_tick(executive)) {
+    if (!executive_book(executive, &time, has_worked && hal_tick_is_late())) {
         hal_tick_stop();
     }
 }

@@ -186,8 +186,8 @@ struct executive_tick_time {
 
 /* Books a tick's time. One that was late, or left main less than 1/16 of the period, is an overrun: as many ticks as it
  * took periods are shed after it, and one more, so that main has at least half of the time whatever the load. A tick that
- * was shed is never late. [ISR] */
-void executive_book(struct executive *executive, const struct executive_tick_time *time, bool is_late);
+ * was shed is never late. Returns whether the timer should go on. [ISR] */
+bool executive_book(struct executive *executive, const struct executive_tick_time *time, bool is_late);
 
 /* Ticks are being shed after an overrun. [ISR] */
 static inline bool executive_is_behind(const struct executive *executive) { return executive->to_shed != 0u; }

@@ -220,27 +220,42 @@ bool executive_tick(struct executive *executive, bool is_due)
     return true;
 }
 
-void executive_book(struct executive *executive, const struct executive_tick_time *time, bool is_late)
+/* A new rate: what was booked belongs to the old one. */
+static BASE_NOINLINE void begin_period(struct executive_load *load, uint32_t period)
+{
+    load->period = period;
+    load->busy_max = 0u;
+    load->busy_sum = 0u;
+    load->elapsed = 0u;
+}
+
+static BASE_NOINLINE void book_overrun(struct executive *executive, const struct executive_tick_time *time)
+{
+    const uint32_t periods = time->busy / time->period;
+
+    executive->load.overruns++;
+    executive->to_shed = periods + 1u;
+    pass_time(executive, periods > 1u ? periods - 1u : 0u); /* of the ticks meanwhile the timer kept one */
+}
+
+bool executive_book(struct executive *executive, const struct executive_tick_time *time, bool is_late)
 {
     struct executive_load *load = &executive->load;
 
-    if (load->period != time->period) {
-        load->period = time->period;
-        load->busy_max = 0u;
-        load->busy_sum = 0u;
-        load->elapsed = 0u;
+    if (BASE_UNLIKELY(load->period != time->period)) {
+        begin_period(load, time->period);
     }
-    load->busy_max = time->busy > load->busy_max ? time->busy : load->busy_max;
     load->busy_sum += time->busy;
     load->elapsed += time->elapsed;
-    if (is_late || time->busy > time->period - time->period / MAIN_SHARE) {
-        const uint32_t periods = time->busy / time->period;
-
-        load->overruns++;
-        executive->to_shed = periods + 1u;
-        pass_time(executive, periods > 1u ? periods - 1u : 0u); /* of the ticks meanwhile the timer kept one */
+    if (BASE_UNLIKELY(time->busy > load->busy_max)) {
+        load->busy_max = time->busy;
     }
-    if (!executive_wants_tick(executive)) {
+    if (BASE_UNLIKELY(is_late || time->busy > time->period - time->period / MAIN_SHARE)) {
+        book_overrun(executive, time);
+    }
+    if (BASE_UNLIKELY(!executive_wants_tick(executive))) {
         write_report(executive); /* the last tick's time is in it too */
+        return false;
     }
+    return true;
 }

@@ -18,9 +18,9 @@ static void check_overrun(void)
     plants_executive(&executive, "N0 1");
     executive_free_run(&executive);
     plants_ticks(&executive, 10u);
-    executive_book(&executive, &(struct executive_tick_time){700u, 1000u, 1000u}, false);
-    executive_book(&executive, &(struct executive_tick_time){1200u, 1000u, 1000u}, true);
-    executive_book(&executive, &(struct executive_tick_time){100u, 2000u, 1000u}, false);
+    (void)executive_book(&executive, &(struct executive_tick_time){700u, 1000u, 1000u}, false);
+    (void)executive_book(&executive, &(struct executive_tick_time){1200u, 1000u, 1000u}, true);
+    (void)executive_book(&executive, &(struct executive_tick_time){100u, 2000u, 1000u}, false);
     plants_ticks(&executive, 2u);
     tap_check(executive.sim.step == 10u && executive.load.shed == 2u && executive.load.ticks == 10u,
               "after a tick of 1.2 periods two are shed");
@@ -29,7 +29,7 @@ static void check_overrun(void)
     tap_check(executive.load.overruns == 1u && executive.load.busy_max == 1200u && executive.load.busy_sum == 2000u &&
                   executive.load.elapsed == 4000u && executive.load.period == 1000u,
               "what ticks took is booked");
-    executive_book(&executive, &(struct executive_tick_time){250000u, 250000u, 1000u}, true);
+    (void)executive_book(&executive, &(struct executive_tick_time){250000u, 250000u, 1000u}, true);
     tap_check(executive.to_shed == 251u, "a tick of 250 periods is followed by 251 that leave the time to main");
     (void)plants_order(&executive, "N0 2", false, NULL);
     executive_tick(&executive, true);
