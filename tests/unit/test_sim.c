@@ -185,8 +185,39 @@ static void check_sample(void)
     tap_check(sim->measure.done == 64u && sim->measure.x_max > sim->measure.x_min, "a measurement runs beside");
 }
 
+/* The short way through a step against the long one, which is_usual = false takes. */
+static bool is_same_by_the_long_way(const char *preset, const char *assignments)
+{
+    static struct plant twin;
+    bool was_usual = false;
+
+    plants_start_preset(&plant, preset, assignments);
+    plants_start_preset(&twin, preset, assignments);
+    for (uint32_t i = 0u; i < 6000u; i++) {
+        was_usual = was_usual || sim->is_usual;
+        twin.sim.is_usual = false;
+        if (sim_step(sim) != sim_step(&twin.sim)) {
+            return false;
+        }
+    }
+    return was_usual && sim->hash == twin.sim.hash && sim->fault == twin.sim.fault &&
+           sim->v10_step == twin.sim.v10_step && sim->v10_fraction_q15 == twin.sim.v10_fraction_q15 &&
+           sim->counters.events == twin.sim.counters.events && sim->counters.lifted == twin.sim.counters.lifted &&
+           sim->detector.verdict.propensity == twin.sim.detector.verdict.propensity &&
+           sim->detector.step == twin.sim.detector.step;
+}
+
+static void check_usual(void)
+{
+    tap_check(is_same_by_the_long_way("fig7-ke5000", "") && is_same_by_the_long_way("fig7-ke5000", "arith q27"),
+              "the usual step is the step, to the end of the domain");
+    tap_check(is_same_by_the_long_way("fig5-n5", "contact lift") && is_same_by_the_long_way("fig5-n5", "arith q27"),
+              "and with events in it");
+}
+
 void test_sim(void)
 {
+    check_usual();
     check_v10();
     check_fault();
     check_not_finite();
