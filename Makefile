@@ -345,6 +345,7 @@ check: $(IMAGE) $(CONTROLLER) ## check layers, forbidden symbols, documents and 
 	$(Q)tools/check_snapshot
 	$(Q)tools/check_docs
 	$(Q)tools/gen_tables --check
+	$(Q)! grep -nE '^.{121}' $$(git ls-files '*.c' '*.h')
 	$(Q)clang-format --dry-run -Werror $$(git ls-files '*.c' '*.h')
 
 size: $(IMAGE) other-images ## flash, RAM and deepest stack of every board against tests/budget.txt

@@ -20,7 +20,8 @@ void cmsdk_timer_open(const struct cmsdk_timer_wiring *wiring);
  * between main's last look and the question, to be asked with interrupts masked. [MAIN] */
 bool cmsdk_timer_allows_sleep(void);
 
-/* Holds the clock, for the time of a sleep in an emulator whose virtual time would run on to the clock's overflow. [MAIN] */
+/* Holds the clock, for the time of a sleep in an emulator whose virtual time would run on to the clock's overflow.
+ * [MAIN] */
 void cmsdk_timer_hold_clock(void);
 void cmsdk_timer_resume_clock(void);
 

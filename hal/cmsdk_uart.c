@@ -85,9 +85,9 @@ static bool take_byte(struct port *own)
     return true;
 }
 
-/* The UART holds one byte, so on silicon one is read an interrupt. An emulator may have the next one there at once, and an
- * interrupt costs it more than a look. The order matters: the flag is latched anew for each byte, and cleared after a read
- * it could take the next byte's interrupt with it. */
+/* The UART holds one byte, so on silicon one is read an interrupt. An emulator may have the next one there at once, and
+ * an interrupt costs it more than a look. The order matters: the flag is latched anew for each byte, and cleared after
+ * a read it could take the next byte's interrupt with it. */
 void cmsdk_uart_rx_isr(enum hal_uart port)
 {
     struct port *const own = &ports[port];

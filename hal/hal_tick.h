@@ -22,8 +22,8 @@ void hal_tick_stop(void);
 /* Does the timer run? [ANY] */
 bool hal_tick_is_running(void);
 
-/* Runs app_tick() once at the tick's priority and returns after it, whether or not the timer runs. hal_tick_take() tells
- * the handler that no period has passed. [MAIN] */
+/* Runs app_tick() once at the tick's priority and returns after it, whether or not the timer runs. hal_tick_take()
+ * tells the handler that no period has passed. [MAIN] */
 void hal_tick_trigger(void);
 
 /* Acknowledges the timer. True if a period has ended since the last call. [ISR] */

@@ -7,8 +7,8 @@
 
 enum hal_uart { HAL_UART_CONSOLE, HAL_UART_LINK, HAL_UART_COUNT };
 
-/* Line speed in bits per second as set by hal_board_init(), for load figures: ten bits carry a byte. 0 where the board has no
- * such UART: it then takes nothing, gives nothing and loses nothing. Every board has a console. [ANY] */
+/* Line speed in bits per second as set by hal_board_init(), for load figures: ten bits carry a byte. 0 where the board
+ * has no such UART: it then takes nothing, gives nothing and loses nothing. Every board has a console. [ANY] */
 uint32_t hal_uart_baud(enum hal_uart port);
 
 /* Hands over up to size bytes; returns how many were taken, 0 if the line is busy. [MAIN] */

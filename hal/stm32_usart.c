@@ -66,8 +66,9 @@ void stm32_usart_open(enum hal_uart port, const struct stm32_usart_wiring *wirin
     nvic_enable(wiring->irq);
 }
 
-/* Takes the byte that the USART holds into the ring; false if there is none, or if it must stay where it is. Then the interrupt is
- * masked at the controller: an emulator's line stays raised until the byte is read, whatever the USART's own mask says. */
+/* Takes the byte that the USART holds into the ring; false if there is none, or if it must stay where it is. Then the
+ * interrupt is masked at the controller: an emulator's line stays raised until the byte is read, whatever the USART's
+ * own mask says. */
 static bool take_byte(struct port *own)
 {
     const uint32_t state = own->block->sr;
@@ -89,8 +90,8 @@ static bool take_byte(struct port *own)
     return true;
 }
 
-/* Until there is no byte more: an emulator that gives the next one during a read lowers the line after it, and that byte would
- * never be told. A refused byte's interrupt is only there to wake main. */
+/* Until there is no byte more: an emulator that gives the next one during a read lowers the line after it, and that
+ * byte would never be told. A refused byte's interrupt is only there to wake main. */
 void stm32_usart_isr(enum hal_uart port)
 {
     struct port *const own = &ports[port];

@@ -1,7 +1,7 @@
 /* The USART of STM32F2 and F4: implements hal_uart.h for as many ports as the board opens.
  *
- * Received bytes go by interrupt into a ring of 4 KiB a port. When it is full the port's interrupt is masked until main has
- * read: an emulator then holds the rest back, on silicon the overrun is counted. */
+ * Received bytes go by interrupt into a ring of 4 KiB a port. When it is full the port's interrupt is masked until main
+ * has read: an emulator then holds the rest back, on silicon the overrun is counted. */
 #ifndef STM32_USART_H
 #define STM32_USART_H
 
@@ -23,8 +23,8 @@ void stm32_usart_open(enum hal_uart port, const struct stm32_usart_wiring *wirin
 /* The handler of the port's interrupt. [ISR] */
 void stm32_usart_isr(enum hal_uart port);
 
-/* Nothing received that main has not read, no refused byte that the line would take now: asked with interrupts masked before
- * a sleep, whatever happens after it wakes the core. [MAIN] */
+/* Nothing received that main has not read, no refused byte that the line would take now: asked with interrupts masked
+ * before a sleep, whatever happens after it wakes the core. [MAIN] */
 bool stm32_usart_is_quiet(enum hal_uart port);
 
 /* One byte out of a line that is set up, waiting for it before and after. [ANY] */

@@ -1,11 +1,11 @@
 /* One thread. The tick has no interrupt: it runs inside hal_idle(), or in the console's read where main has gone round
  * without idling, so each round of the main loop meets at least one tick and the order of things follows from the input
- * alone. Time is virtual, one period a tick, as fast as the machine goes. With SQUEAL_REALTIME=1 in the environment ticks
- * and clock follow the monotonic clock instead.
+ * alone. Time is virtual, one period a tick, as fast as the machine goes. With SQUEAL_REALTIME=1 in the environment
+ * ticks and clock follow the monotonic clock instead.
  *
- * With SQUEAL_LINK=unix:PATH the link's other end is a socket there, for one peer at a time; with unix-connect:PATH this
- * process is the peer of another that listens there. Without it, or while nobody is connected, what is sent is gone and
- * nothing comes.
+ * With SQUEAL_LINK=unix:PATH the link's other end is a socket there, for one peer at a time; with unix-connect:PATH
+ * this process is the peer of another that listens there. Without it, or while nobody is connected, what is sent is
+ * gone and nothing comes.
  */
 #include "board.h"
 
@@ -151,8 +151,8 @@ void hal_board_panic_write(char byte)
 /* A process has no pin; the verdict is on the console too. */
 void hal_flag_set(bool is_squealing) { (void)is_squealing; }
 
-/* Input that has ended, on the link too, and a main that stays idle for a while, with the tick stopped: nothing can ever
- * happen again. */
+/* Input that has ended, on the link too, and a main that stays idle for a while, with the tick stopped: nothing can
+ * ever happen again. */
 static void idle_stopped(void)
 {
     if (!console.is_ended || console.is_refused || !socket_is_over()) {

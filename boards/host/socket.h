@@ -1,5 +1,5 @@
-/* The link's other end: a socket of this machine, for one peer at a time. While nobody is connected what is sent is gone and
- * nothing comes. Nothing here waits. */
+/* The link's other end: a socket of this machine, for one peer at a time. While nobody is connected what is sent is
+ * gone and nothing comes. Nothing here waits. */
 #ifndef SOCKET_H
 #define SOCKET_H
 
@@ -7,8 +7,8 @@
 #include <stddef.h>
 #include <sys/select.h>
 
-/* Listens at "unix:PATH", connects to who listens there with "unix-connect:PATH", or does nothing if there is no text. False if
- * it cannot. */
+/* Listens at "unix:PATH", connects to who listens there with "unix-connect:PATH", or does nothing if there is no text.
+ * False if it cannot. */
 bool socket_open(const char *where);
 
 /* Adds what should end a wait: a peer or its bytes, room where it refused some. Returns the descriptor, or -1. */

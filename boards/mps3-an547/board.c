@@ -1,4 +1,5 @@
-/* The chip blocks of the AN547, wired to the hal: the processor's timer is the tick, the system counter the clock beside it. */
+/* The chip blocks of the AN547, wired to the hal: the processor's timer is the tick, the system counter the clock
+ * beside it. */
 #include "board.h"
 
 #include "base/compiler.h"
@@ -61,8 +62,8 @@ void hal_board_panic_write(char byte) { cmsdk_uart_put(&console, byte); }
 
 void hal_flag_set(bool is_squealing) { REGISTER(BOARD_LEDS_BASE) = is_squealing ? 1u : 0u; }
 
-/* With the tick stopped the core may sleep. The counter stands meanwhile: virtual time may run on. An interrupt that comes after
- * the question is pending and ends the sleep, although it is masked. */
+/* With the tick stopped the core may sleep. The counter stands meanwhile: virtual time may run on. An interrupt that
+ * comes after the question is pending and ends the sleep, although it is masked. */
 void hal_idle(void)
 {
     nvic_mask();

@@ -1,5 +1,5 @@
-/* Arm MPS3 with FPGA image AN547 (SSE-300, Cortex-M55): DAI 0547, memory map and interrupts. Secure aliases: the program stays in
- * the state it is started in. */
+/* Arm MPS3 with FPGA image AN547 (SSE-300, Cortex-M55): DAI 0547, memory map and interrupts. Secure aliases: the
+ * program stays in the state it is started in. */
 #ifndef MPS3_AN547_BOARD_H
 #define MPS3_AN547_BOARD_H
 

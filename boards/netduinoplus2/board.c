@@ -1,5 +1,5 @@
-/* The chip blocks of the Netduino Plus 2, wired to the hal. The same image serves silicon and QEMU, which models neither clock
- * tree nor pins. */
+/* The chip blocks of the Netduino Plus 2, wired to the hal. The same image serves silicon and QEMU, which models
+ * neither clock tree nor pins. */
 #include "board.h"
 
 #include "base/compiler.h"
@@ -12,8 +12,8 @@
 
 #define SCB_AIRCR (*(volatile uint32_t *)0xE000ED0Cu)
 
-/* TIM2, 32 bits, is the clock beside the tick. Its end value is 2^32 - 1 after reset and is left alone: an emulator takes the
- * writing of it for a deadline. RM0090, section 18.4. */
+/* TIM2, 32 bits, is the clock beside the tick. Its end value is 2^32 - 1 after reset and is left alone: an emulator
+ * takes the writing of it for a deadline. RM0090, section 18.4. */
 #define TIM2_CR1 (*(volatile uint32_t *)BOARD_TIM2_BASE)
 #define TIM2_CNT (*(volatile uint32_t *)(BOARD_TIM2_BASE + 0x24))
 
@@ -83,8 +83,8 @@ void hal_board_panic_write(char byte)
 
 void hal_flag_set(bool is_squealing) { clocks_set_led(is_squealing); }
 
-/* An interrupt that comes after the question is pending and ends the sleep, although it is masked. Silicon may sleep beside a
- * tick that runs, and is woken by it; an emulator may not. */
+/* An interrupt that comes after the question is pending and ends the sleep, although it is masked. Silicon may sleep
+ * beside a tick that runs, and is woken by it; an emulator may not. */
 void hal_idle(void)
 {
     bool may_sleep;

@@ -1,4 +1,5 @@
-/* Netduino Plus 2: STM32F405RG, crystal of 25 MHz. Addresses and lines: RM0090 sections 2.3 and 12.2, DS8626 table 9. */
+/* Netduino Plus 2: STM32F405RG, crystal of 25 MHz. Addresses and lines: RM0090 sections 2.3 and 12.2, DS8626 table 9.
+ * */
 #ifndef NETDUINOPLUS2_BOARD_H
 #define NETDUINOPLUS2_BOARD_H
 
@@ -27,8 +28,8 @@ struct board_clocks {
     uint32_t core, timers; /* the processor, TIM2 */
 };
 
-/* Brings crystal, PLL, flash and buses up to 168 MHz, every wait bounded; on failure all stays on the reset clock. Switches the
- * peripherals on and their pins over. [INIT] */
+/* Brings crystal, PLL, flash and buses up to 168 MHz, every wait bounded; on failure all stays on the reset clock.
+ * Switches the peripherals on and their pins over. [INIT] */
 struct board_clocks clocks_start(void);
 
 /* Is there a clock tree at all? An emulator that does not model it reads 0 where silicon has its reset value. [ANY] */

@@ -1,5 +1,6 @@
-/* Protection for Cortex-M3, M4 and M7. One region makes the whole code space, up to where RAM begins, read-only: a store
- * through a null pointer faults, and so does a stack that grows out of the bottom of RAM. All else stays as it is. */
+/* Protection for Cortex-M3, M4 and M7. One region makes the whole code space, up to where RAM begins, read-only: a
+ * store through a null pointer faults, and so does a stack that grows out of the bottom of RAM. All else stays as it
+ * is. */
 #include <stdint.h>
 
 #include "cortex_m/nvic.h"

@@ -1,5 +1,5 @@
-/* Protection for Armv8-M: one region makes the code space read-only, as mpu_v7m.c has it for its elders, and the processor
- * watches the end of the stack itself. */
+/* Protection for Armv8-M: one region makes the code space read-only, as mpu_v7m.c has it for its elders, and the
+ * processor watches the end of the stack itself. */
 #include <stdint.h>
 
 #include "cortex_m/nvic.h"

@@ -14,8 +14,8 @@ static struct analysis_mode in_si(struct eigen eigen, const struct scale *scale)
                                   eigen.imaginary * scale->omega_rad_per_s / (2.0f * FMATH_PI), eigen.damping_ratio};
 }
 
-/* The slope eps n at which slip begins to grow: -C, or less of it in the tongue. It is never beyond -C: there the mean damping
- * is negative, whatever the oscillation. */
+/* The slope eps n at which slip begins to grow: -C, or less of it in the tongue. It is never beyond -C: there the mean
+ * damping is negative, whatever the oscillation. */
 static float slope_border(const struct floquet_problem *problem)
 {
     struct floquet_problem tried = *problem;

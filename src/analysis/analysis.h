@@ -1,5 +1,5 @@
-/* Everything that can be said of a set without integrating it, in SI, for the state that its profiles lead to: what console and
- * tools print. Float, for main. [pure] */
+/* Everything that can be said of a set without integrating it, in SI, for the state that its profiles lead to: what
+ * console and tools print. Float, for main. [pure] */
 #ifndef ANALYSIS_ANALYSIS_H
 #define ANALYSIS_ANALYSIS_H
 

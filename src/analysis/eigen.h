@@ -1,6 +1,6 @@
-/* Complex eigenvalues of steady sliding, as brake engineers look for squeal: of the motion about the equilibrium under a constant
- * load, the disc turning. Friction follows the normal direction and does not act back on it, so the two modes are apart.
- * The real part positive: squeal propensity. Float, for main. [pure] */
+/* Complex eigenvalues of steady sliding, as brake engineers look for squeal: of the motion about the equilibrium under
+ * a constant load, the disc turning. Friction follows the normal direction and does not act back on it, so the two
+ * modes are apart. The real part positive: squeal propensity. Float, for main. [pure] */
 #ifndef ANALYSIS_EIGEN_H
 #define ANALYSIS_EIGEN_H
 
@@ -15,9 +15,9 @@ struct eigen {
 
 struct eigen eigen_of(float damping, float stiffness);
 
-/* The unstable outer cycle: where slip grows (slope + damping < 0), sticking holds it back, but only below this speed; a faster
- * pad runs away as printed, where no floor keeps friction from turning round. By the describing function
- * V* = 4 mu n/(pi (-(eps n) - C)); inf where slip does not grow. */
+/* The unstable outer cycle: where slip grows (slope + damping < 0), sticking holds it back, but only below this speed;
+ * a faster pad runs away as printed, where no floor keeps friction from turning round. By the describing function V* =
+ * 4 mu n/(pi (-(eps n) - C)); inf where slip does not grow. */
 float eigen_outer_speed(float friction, float slope, float damping);
 
 #endif

@@ -43,8 +43,8 @@ static struct disturbance over_one_period(const struct floquet_problem *problem,
     return at;
 }
 
-/* The larger multiplier's modulus, from trace and determinant of the map. The determinant is known exactly from Liouville: what
- * friction and damping take from the area in a period. */
+/* The larger multiplier's modulus, from trace and determinant of the map. The determinant is known exactly from
+ * Liouville: what friction and damping take from the area in a period. */
 static float largest_multiplier(float trace, float determinant)
 {
     const float half = 0.5f * trace;

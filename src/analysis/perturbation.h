@@ -1,7 +1,7 @@
-/* The paper's analytic solution of forced slip, Eqs. 14 to 19, as printed and set right: what the pad does as long as it
- * neither sticks nor overtakes the disc, under a constant load from rest.
+/* The paper's analytic solution of forced slip, Eqs. 14 to 19, as printed and set right: what the pad does as long as
+ * it neither sticks nor overtakes the disc, under a constant load from rest.
  *
- *     x'' + d x' + Z2 x = B (1 - cos tau) + eps cos(tau) x'       d = C + eps n, eps = eps n here, B = n (mu + eps |V0|)
+ *     x'' + d x' + Z2 x = B (1 - cos tau) + eps cos(tau) x'     d = C + eps n, eps = eps n here, B = n (mu + eps |V0|)
  *
  * expanded in eps. Derivation and the list of what is wrong in print: model/MODEL.md, "The paper's analytic solution".
  * Everything in the model's units (model/scale.h). Float, for main. */
@@ -18,7 +18,7 @@
 enum { PERTURBATION_ORDER_MAX = 2, PERTURBATION_HARMONICS = 3 };
 
 enum perturbation_form {
-    PERTURBATION_PRINTED, /* 1 - sin for the normal direction, arctg for atan2, damping C alone, phi_2 with one phi_0 more */
+    PERTURBATION_PRINTED,  /* 1 - sin for the normal direction, arctg for atan2, damping C alone, one phi_0 too many */
     PERTURBATION_WITH_COS, /* the same, but with 1 - cos, which the initial state asks for */
     PERTURBATION_CORRECTED
 };
@@ -30,7 +30,8 @@ struct perturbation {
     float damping, stiffness; /* d and Z2, of the transient */
 };
 
-/* Is the set one of these: constant load and speed, in the normal direction from rest, no cn, no floor, a spring? [MAIN] */
+/* Is the set one of these: constant load and speed, in the normal direction from rest, no cn, no floor, a spring?
+ * [MAIN] */
 bool perturbation_is_served(const struct params *params, const struct scale *scale);
 
 /* Solution of a set that is served, order 0 ... 2. [MAIN] */
@@ -44,8 +45,8 @@ struct perturbation_state {
 
 struct perturbation_state perturbation_forced(const struct perturbation *solution, uint32_t turns);
 
-/* The same with the transient that leads there from a state at tau = 0: exact for eps = 0, else to the order of eps. Only
- * for d < 2 Z. periods since reset, in normal periods. */
+/* The same with the transient that leads there from a state at tau = 0: exact for eps = 0, else to the order of eps.
+ * Only for d < 2 Z. periods since reset, in normal periods. */
 struct perturbation_state perturbation_from(const struct perturbation *solution, struct perturbation_state start,
                                             float periods);
 

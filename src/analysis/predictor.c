@@ -60,7 +60,8 @@ static struct oscillation driven(struct oscillation free, float before, float af
     return free;
 }
 
-/* What the changes of the load leave behind, from the moment of the first to that of the last; *length_s tells how long that is. */
+/* What the changes of the load leave behind, from the moment of the first to that of the last; *length_s tells how long
+ * that is. */
 static struct oscillation left_by_changes(const struct demand *load, const struct scale *scale, float *length_s)
 {
     struct oscillation free = {0.0f, 0.0f};
@@ -160,7 +161,8 @@ static bool bounces(const struct params *params, const struct predictor_finish *
     return (int)params->contact == CONTACT_LIFT && finish->load > 0.0f && onset > finish->load;
 }
 
-/* Motion on the floor that reaches back across the knee, where friction falls and feeds it: that of the onset is enough. */
+/* Motion on the floor that reaches back across the knee, where friction falls and feeds it: that of the onset is
+ * enough. */
 static bool crosses_knee(const struct scale *scale, const struct prediction *prediction,
                          const struct predictor_finish *finish)
 {

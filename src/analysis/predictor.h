@@ -14,7 +14,8 @@
 #include "model/params.h"
 #include "model/scale.h"
 
-/* Forced motion at this share of the disc's speed is near enough to it to be watched, and too near to be promised quiet. */
+/* Forced motion at this share of the disc's speed is near enough to it to be watched, and too near to be promised
+ * quiet. */
 #define PREDICTOR_TOUCH_MARGIN 0.95f
 
 enum predictor_verdict { PREDICTION_UNKNOWN, PREDICTION_QUIET, PREDICTION_WATCH, PREDICTION_SQUEAL };

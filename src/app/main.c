@@ -54,8 +54,8 @@ static void pump_input(void)
     end->taken += link_receive(&link, end->received + end->taken, end->size - end->taken);
 }
 
-/* Returns true when all is sent, and nothing waits to be taken for want of room there. The UART is not asked to interrupt
- * for more: main must not sleep before. */
+/* Returns true when all is sent, and nothing waits to be taken for want of room there. The UART is not asked to
+ * interrupt for more: main must not sleep before. */
 static bool pump_output(enum hal_uart port)
 {
     struct line_ends *end = &ends[port];

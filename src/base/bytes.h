@@ -7,8 +7,8 @@
  *         return false;
  *     }
  *
- * A field that does not fit is not written, and from then on none is; a field that is not there reads as 0, and so do all
- * that follow. So a list of fields needs one look at its end. Nothing beyond the end is touched. [ANY, pure] */
+ * A field that does not fit is not written, and from then on none is; a field that is not there reads as 0, and so do
+ * all that follow. So a list of fields needs one look at its end. Nothing beyond the end is touched. [ANY, pure] */
 #ifndef BASE_BYTES_H
 #define BASE_BYTES_H
 

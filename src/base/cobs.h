@@ -1,5 +1,5 @@
-/* Consistent overhead byte stuffing (Cheshire and Baker 1999): any bytes become bytes other than 0, so that a 0 may stand
- * between frames, for one byte more in every 254.
+/* Consistent overhead byte stuffing (Cheshire and Baker 1999): any bytes become bytes other than 0, so that a 0 may
+ * stand between frames, for one byte more in every 254.
  *
  *     11 22 00 33      ->      03 11 22 02 33
  *                              |        |

@@ -11,8 +11,8 @@
 /* Magnitude; defined for INT32_MIN too. */
 static inline uint32_t fixed_abs(int32_t value) { return value < 0 ? 0u - (uint32_t)value : (uint32_t)value; }
 
-/* value / 2^shift rounded down; shift 0 ... 63. C99 leaves this shift to the compiler; gcc and clang keep the sign, and a
- * unit test asks them. */
+/* value / 2^shift rounded down; shift 0 ... 63. C99 leaves this shift to the compiler; gcc and clang keep the sign, and
+ * a unit test asks them. */
 static inline int64_t fixed_floor(int64_t value, unsigned shift) { return value >> shift; }
 
 /* The same in 32 bits; shift 0 ... 31. */
@@ -21,7 +21,8 @@ static inline int32_t fixed_floor_word(int32_t value, unsigned shift) { return v
 /* value / 2 to nearest, halves up, in 32 bits; value < INT32_MAX. */
 static inline int32_t fixed_half_up(int32_t value) { return (value + 1) >> 1; }
 
-/* value / 2^shift to nearest, halves up; shift 1 ... 62. The cheaper rounding, for numbers that have no mirror image. */
+/* value / 2^shift to nearest, halves up; shift 1 ... 62. The cheaper rounding, for numbers that have no mirror image.
+ * */
 static inline int64_t fixed_round_up(int64_t value, unsigned shift)
 {
     return fixed_floor(value + ((int64_t)1 << (shift - 1u)), shift);
@@ -117,8 +118,8 @@ unsigned fixed_bits(uint64_t magnitude);
  * bits. */
 uint32_t fixed_ratio_q30(uint32_t part, uint32_t whole);
 
-/* factor value 2^exponent, rounded to nearest, halves away from zero; |factor| <= 2^38. What exceeds 2^62 is held there;
- * NaN counts as infinite. No floating-point operation. */
+/* factor value 2^exponent, rounded to nearest, halves away from zero; |factor| <= 2^38. What exceeds 2^62 is held
+ * there; NaN counts as infinite. No floating-point operation. */
 int64_t fixed_times_float(int64_t factor, float value, int exponent);
 
 /* value in a format with so many fraction bits, saturated. */

@@ -78,8 +78,8 @@ static uint32_t fold(uint32_t turns)
     return half > QUARTER_TURN ? HALF_TURN - half : half;
 }
 
-/* sin(pi/2 x)/x as an alternating polynomial of x squared, minimax on 0..1 with an error of 3.4e-9 in the sine. Argument
- * and coefficients carry 2^30, z carries 2^32 and stops just short of 1. */
+/* sin(pi/2 x)/x as an alternating polynomial of x squared, minimax on 0..1 with an error of 3.4e-9 in the sine.
+ * Argument and coefficients carry 2^30, z carries 2^32 and stops just short of 1. */
 static uint32_t sine_ratio(uint32_t x)
 {
     const uint32_t square = multiply_high(x << 1, x << 1);

@@ -1,9 +1,9 @@
-/* Random numbers without a state: each is a function of (seed, stream, index) alone, so any may be asked for, in any order
- * and on any machine, and is the same to the bit. Streams are independent of each other, and so are seeds.
+/* Random numbers without a state: each is a function of (seed, stream, index) alone, so any may be asked for, in any
+ * order and on any machine, and is the same to the bit. Streams are independent of each other, and so are seeds.
  *
- * The words are those of Threefry-2x32 with 20 rounds (Salmon, Moraes, Dror, Shaw: Parallel random numbers: as easy as 1,
- * 2, 3; 2011) under the key (seed, stream): additions, rotations and exclusive ors, some 60 instructions for two words.
- * For simulation, not for secrets. [ANY, pure] */
+ * The words are those of Threefry-2x32 with 20 rounds (Salmon, Moraes, Dror, Shaw: Parallel random numbers: as easy as
+ * 1, 2, 3; 2011) under the key (seed, stream): additions, rotations and exclusive ors, some 60 instructions for two
+ * words. For simulation, not for secrets. [ANY, pure] */
 #ifndef BASE_RANDOM_H
 #define BASE_RANDOM_H
 

@@ -56,8 +56,8 @@ float demand_reach(const struct demand *demand);
 /* Mass of all pads, seen from the disc's inertia: pads m R^2/J. */
 float demand_inertia_ratio(const struct params *params);
 
-/* Seconds in which an inertia stands at the latest, if friction is never below half of mu_s and the force stays; 0 where
- * there is none, and where nothing brakes it, so that it is not waited for. */
+/* Seconds in which an inertia stands at the latest, if friction is never below half of mu_s and the force stays; 0
+ * where there is none, and where nothing brakes it, so that it is not waited for. */
 float demand_stop_s(const struct params *params);
 
 /* A set in which force or speed is held, come what may. */

@@ -46,8 +46,8 @@ static void move_to(struct work *work, float place, float y)
     work->progress->is_lifted = work->progress->is_lifted || y < 0.0f;
 }
 
-/* At vr = 0 under the contact force p the pad sticks if friction can hold it; otherwise it slips to the side that the need
- * pulls it to. The same test serves entry and exit: static and kinetic friction are equal at vr = 0. */
+/* At vr = 0 under the contact force p the pad sticks if friction can hold it; otherwise it slips to the side that the
+ * need pulls it to. The same test serves entry and exit: static and kinetic friction are equal at vr = 0. */
 static int8_t regime_at_rest(const struct step_f32 *s, const struct step_f32_coeffs *c, float p, float extra)
 {
     const float need = stick_need(c, s->x, s->disc) + extra;
@@ -76,7 +76,8 @@ void event_f32_set_speed(struct step_f32 *s, const struct step_f32_coeffs *c, fl
     }
 }
 
-/* --- Slip ---------------------------------------------------------------------------------------------------------- */
+/* --- Slip ----------------------------------------------------------------------------------------------------------
+ * */
 
 /* The factors of the way from here to a place; the whole step has them ready. */
 static const struct slip_f32_factors *take_part(const struct work *work, float place, struct slip_f32_factors *part)
@@ -135,8 +136,8 @@ static float find_crossing(const struct work *work, const struct slip_f32_factor
     return hermite_f32_root(&vr, upper);
 }
 
-/* Change of x up to where the pad meets the disc, at a place of the piece. v is the cubic on which that place was found, so
- * its mean up to there is exactly the mean of its ends less a twelfth of what its slope changes by. */
+/* Change of x up to where the pad meets the disc, at a place of the piece. v is the cubic on which that place was
+ * found, so its mean up to there is exactly the mean of its ends less a twelfth of what its slope changes by. */
 static float dx_at_crossing(const struct step_f32 *s, const struct slip_f32_factors *f, const struct slip_f32_end *end,
                             float last, float place)
 {
@@ -185,7 +186,8 @@ static void slip_piece(struct work *work, const struct slip_f32_end *known)
     s->mode = regime_at_rest(s, work->c, force_of(work, work->stretch.y), 0.0f);
 }
 
-/* --- Stick --------------------------------------------------------------------------------------------------------- */
+/* --- Stick ---------------------------------------------------------------------------------------------------------
+ * */
 
 static float carried(const struct work *work, float place)
 {
@@ -236,7 +238,8 @@ static void stick_piece(struct work *work)
     s->mode = side;
 }
 
-/* --- Contact ------------------------------------------------------------------------------------------------------- */
+/* --- Contact -------------------------------------------------------------------------------------------------------
+ * */
 
 /* Where on a stretch that starts here the spring lets go or takes hold (contact lift), or NOT_HERE. */
 static float find_contact_change(const struct work *work, const struct normal_f32_piece *piece)
@@ -293,7 +296,8 @@ static void change_contact(struct work *work)
     }
 }
 
-/* --- The step ------------------------------------------------------------------------------------------------------- */
+/* --- The step -------------------------------------------------------------------------------------------------------
+ * */
 
 void event_f32_step(struct step_f32 *s, const struct step_f32_coeffs *c, struct event_f32_progress *progress,
                     const struct event_f32_attempt *attempt)

@@ -169,8 +169,8 @@ static int32_t find_crossing(const struct work *work, struct slip_piece *piece)
     return hermite_q27_root(&vr, upper);
 }
 
-/* x where the pad meets the disc, at a place of the piece. v is the cubic on which that place was found, so its mean up to
- * there is exactly the mean of its ends less a twelfth of what its slope changes by. */
+/* x where the pad meets the disc, at a place of the piece. v is the cubic on which that place was found, so its mean up
+ * to there is exactly the mean of its ends less a twelfth of what its slope changes by. */
 static int32_t x_at_crossing(const struct work *work, const struct slip_piece *piece, int32_t place)
 {
     const struct slip_q27_view *view = &piece->view;
@@ -288,7 +288,8 @@ static void stick_piece(struct work *work)
     event_q27_enter(s, side);
 }
 
-/* --- Contact -------------------------------------------------------------------------------------------------------- */
+/* --- Contact --------------------------------------------------------------------------------------------------------
+ * */
 
 /* Where on a stretch that starts here the spring lets go or takes hold (contact lift), or NOT_HERE. */
 static int32_t find_contact_change(const struct work *work, const struct normal_q27_piece *piece)
@@ -348,7 +349,8 @@ static void change_contact(struct work *work)
     }
 }
 
-/* --- The step ------------------------------------------------------------------------------------------------------- */
+/* --- The step -------------------------------------------------------------------------------------------------------
+ * */
 
 void event_q27_step(struct step_q27 *s, const struct step_q27_coeffs *c, struct event_q27_progress *progress,
                     const struct event_q27_attempt *attempt)

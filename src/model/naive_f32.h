@@ -1,5 +1,5 @@
-/* RK4 on the raw sign of vr, with neither sticking nor location: for comparison only. It is wrong by up to 44 % once the
- * pad sticks, whatever the step. */
+/* RK4 on the raw sign of vr, with neither sticking nor location: for comparison only. It is wrong by up to 44 % once
+ * the pad sticks, whatever the step. */
 #ifndef MODEL_NAIVE_F32_H
 #define MODEL_NAIVE_F32_H
 

@@ -66,8 +66,8 @@ static inline void normal_f32_move(struct normal_f32 *normal, const struct norma
     normal->w = fmath_add_kept(normal->w, piece->dw, &normal->w_rest);
 }
 
-/* The way of y between two instants, as the cubic through displacement and velocity at both; t from 0 to 1. Friction does not
- * act on y, so a step with switches of friction integrates y once and reads it off here. */
+/* The way of y between two instants, as the cubic through displacement and velocity at both; t from 0 to 1. Friction
+ * does not act on y, so a step with switches of friction integrates y once and reads it off here. */
 struct normal_f32_arc {
     float y, slope, square, cube; /* y + t (slope + t (square + t cube)) */
 };
@@ -136,7 +136,8 @@ BASE_INLINE void normal_f32_look_end(const struct normal_f32 *normal, const stru
     piece->w = normal->w + piece->dw;
 }
 
-/* The displacements of its stages, in the places of the forces: the middle two are one, and the last is that of the end. */
+/* The displacements of its stages, in the places of the forces: the middle two are one, and the last is that of the
+ * end. */
 BASE_INLINE void normal_f32_look_middle(const struct normal_f32 *normal, const struct normal_f32_coeffs *coeffs,
                                         struct normal_f32_piece *piece)
 {

@@ -110,7 +110,8 @@ void normal_q27_configure(struct normal_q27_coeffs *coeffs, const struct params 
     }
 }
 
-/* What only a change of load or contact can move. Free motion around n never exceeds the amplitude that it began with. */
+/* What only a change of load or contact can move. Free motion around n never exceeds the amplitude that it began with.
+ * */
 static void note_change(struct normal_q27 *normal, uint8_t contact)
 {
     const int64_t reach = (int64_t)fixed_abs(normal->n) + (int64_t)fixed_abs(normal->w) +
@@ -161,9 +162,9 @@ void normal_q27_set_load(struct normal_q27 *normal, const struct normal_q27_coef
     }
 }
 
-/* Part of a step in closed form: a Taylor series over t (Q32), below 2^-29 where its terms end. With e_k = t^(k-1) y^(k)
- * each term is a velocity and undercuts those before it: |e_k| <= 0.40 |e_(k-1)| + 0.16 |e_(k-2)|. MODEL.md has the bounds
- * that follow: no e_k leaves 32 bits, nor does a sum but the last ones. */
+/* Part of a step in closed form: a Taylor series over t (Q32), below 2^-29 where its terms end. With e_k = t^(k-1)
+ * y^(k) each term is a velocity and undercuts those before it: |e_k| <= 0.40 |e_(k-1)| + 0.16 |e_(k-2)|. MODEL.md has
+ * the bounds that follow: no e_k leaves 32 bits, nor does a sum but the last ones. */
 static void look_series(const struct normal_q27 *normal, const struct normal_q27_coeffs *coeffs, int32_t t,
                         int32_t damping_t, struct normal_q27_piece *piece, bool *is_saturated)
 {

@@ -1,7 +1,7 @@
 /* The normal direction in Q4.27: the two methods of normal_f32.h, with the same meaning of every function.
  *
- * Factors that belong to the step (h, h Cn, the one-step map) are in Q32: nothing of them reaches 1/2, since h Cn <= 0.40.
- * A place inside the step is a fraction of it in Q30. */
+ * Factors that belong to the step (h, h Cn, the one-step map) are in Q32: nothing of them reaches 1/2, since h Cn <=
+ * 0.40. A place inside the step is a fraction of it in Q30. */
 #ifndef MODEL_NORMAL_Q27_H
 #define MODEL_NORMAL_Q27_H
 
@@ -37,8 +37,9 @@ struct normal_q27_coeffs {
     bool has_phase; /* exact, undamped and never lifted: y from an integer phase index */
 };
 
-/* y = n + cosine cos(phase) + sine sin(phase), w = sine cos(phase) + minus_cosine sin(phase). The phase is a place within
- * a quarter turn; each full quarter turns the amplitudes instead, which costs no bit. Amplitudes are in Q28: |y - n| < 8. */
+/* y = n + cosine cos(phase) + sine sin(phase), w = sine cos(phase) + minus_cosine sin(phase). The phase is a place
+ * within a quarter turn; each full quarter turns the amplitudes instead, which costs no bit. Amplitudes are in Q28: |y
+ * - n| < 8. */
 struct normal_q27_phase {
     int32_t cosine, sine, minus_cosine;
     uint32_t index;
@@ -60,8 +61,8 @@ struct normal_q27_piece {
     int32_t y, w;
 };
 
-/* y between two instants as the cubic through displacement and velocity at both; t in Q30 from 0 to 1. Friction does not
- * act on y, so a step with switches of friction needs y no more often than any other: it reads it off here. */
+/* y between two instants as the cubic through displacement and velocity at both; t in Q30 from 0 to 1. Friction does
+ * not act on y, so a step with switches of friction needs y no more often than any other: it reads it off here. */
 struct normal_q27_arc {
     int32_t y, slope, square, cube; /* y + t (slope + t (square + t cube)) */
 };
@@ -167,8 +168,8 @@ BASE_INLINE void normal_q27_look_end(const struct normal_q27 *normal, const stru
     piece->w = sum_q27_two(w, full->wy, d, full->ww, w, is_saturated);
 }
 
-/* The displacements of its stages, in the places of the forces. Where the closed form is used the middle two are one, and the
- * last is that of the end. */
+/* The displacements of its stages, in the places of the forces. Where the closed form is used the middle two are one,
+ * and the last is that of the end. */
 BASE_INLINE void normal_q27_look_stages(const struct normal_q27 *normal, const struct normal_q27_coeffs *coeffs,
                                         bool is_exact, struct normal_q27_piece *piece, bool *tell)
 {

@@ -20,8 +20,8 @@ static inline int32_t to_q27(float value, bool *is_saturated)
 
 static inline int32_t inside_q27(float value) { return (int32_t)(value * (float)(1 << PLANT_FRACTION_BITS)); }
 
-/* State in Q4.27; the usual case, all of it in range, is asked once. The disc's speed never leaves it: inputs are within 1,
- * but for rounding. */
+/* State in Q4.27; the usual case, all of it in range, is asked once. The disc's speed never leaves it: inputs are
+ * within 1, but for rounding. */
 BASE_INLINE void report_state(const struct step_f32 *s, const struct step_f32_coeffs *c, struct plant_output *output)
 {
     const float x = s->x * c->output_length;

@@ -18,8 +18,8 @@ enum {
 
 enum { PARAMS_POINTS_MAX = 64 };
 
-/* A profile by its breakpoints: straight lines between them, the first value before them, the last one after. Two points of one
- * time are a jump. Those beyond count are zeros. */
+/* A profile by its breakpoints: straight lines between them, the first value before them, the last one after. Two
+ * points of one time are a jump. Those beyond count are zeros. */
 struct params_points {
     uint32_t count;
     struct params_point {
@@ -102,11 +102,12 @@ const struct params_info *params_table_values(enum params_table_index index);
 /* Time of a table's last point, 0 if it is empty. [ANY] */
 float params_table_end_s(const struct params_points *table);
 
-/* May a table whose last point has this time go on with that one? Else what is wrong: the value, with N0 or v0 to blame; or
- * the time, with t1 or tv1. [MAIN] */
+/* May a table whose last point has this time go on with that one? Else what is wrong: the value, with N0 or v0 to
+ * blame; or the time, with t1 or tv1. [MAIN] */
 struct params_problem params_check_point(enum params_table_index index, float end_s, const struct params_point *point);
 
-/* Checks every field against its range, and every point; a choice must be a whole number. NaN lies in no range. [MAIN] */
+/* Checks every field against its range, and every point; a choice must be a whole number. NaN lies in no range. [MAIN]
+ * */
 struct params_problem params_check(const struct params *params);
 
 /* Do two sets differ in a parameter that needs a restart? Tables never do. Returns the first, or NULL. [MAIN] */

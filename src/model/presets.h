@@ -20,8 +20,9 @@ const struct preset *presets_find(const char *name, size_t length);
 /* Defaults, then the preset's assignments. [MAIN] */
 void presets_load(const struct preset *preset, struct params *params);
 
-/* Applies "symbol value symbol value ..." to a set: all or nothing. On a problem *params is as it was, *info the parameter or NULL, and *bad
- * points at the word that is to blame, *bad_length characters long. Ranges are not checked here. [MAIN] */
+/* Applies "symbol value symbol value ..." to a set: all or nothing. On a problem *params is as it was, *info the
+ * parameter or NULL, and *bad points at the word that is to blame, *bad_length characters long. Ranges are not checked
+ * here. [MAIN] */
 enum error presets_assign(struct params *params, const char *assignments, const struct params_info **info,
                           const char **bad, size_t *bad_length);
 

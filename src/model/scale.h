@@ -54,15 +54,17 @@ struct scale {
     float step;                /* h = 2 pi/spp */
 };
 
-/* Derives the scale of a set. With latched, which is the scale since the last reset, the units are kept and what does not
- * fit them is refused; with NULL they are chosen afresh. The ranges of single parameters are checked first. On a problem
+/* Derives the scale of a set. With latched, which is the scale since the last reset, the units are kept and what does
+ * not fit them is refused; with NULL they are chosen afresh. The ranges of single parameters are checked first. On a
+ * problem
  * *scale is left undefined. [MAIN] */
 struct params_problem scale_derive(const struct params *params, const struct scale *latched, struct scale *scale);
 
 /* Steps per normal period of a set, 16 ... 1024. [ANY] */
 uint32_t scale_steps_per_period(const struct params *params);
 
-/* Largest brake force and disc speed that the set reaches, N and m/s; the force with its roughness and run-out. [MAIN] */
+/* Largest brake force and disc speed that the set reaches, N and m/s; the force with its roughness and run-out. [MAIN]
+ * */
 float scale_load_peak_n(const struct params *params);
 float scale_speed_peak_m_per_s(const struct params *params);
 

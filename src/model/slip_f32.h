@@ -1,7 +1,8 @@
-/* The law of friction, one RK4 piece of slip, and what a piece is judged by: what step_f32.c, event_f32.c and naive_f32.c
- * share, and nobody else.
+/* The law of friction, one RK4 piece of slip, and what a piece is judged by: what step_f32.c, event_f32.c and
+ * naive_f32.c share, and nobody else.
  *
- * Time is counted in steps, so the factors carry h or the part of it that a piece takes, and an "increment" is h x''. */
+ * Time is counted in steps, so the factors carry h or the part of it that a piece takes, and an "increment" is h x''.
+ * */
 #ifndef MODEL_SLIP_F32_H
 #define MODEL_SLIP_F32_H
 
@@ -17,8 +18,8 @@ struct slip_f32_end {
 
 static inline float signed_by(int8_t sign, float value) { return sign < 0 ? -value : value; }
 
-/* h (s mu + eps disc): what friction does to a pad at rest that slips to the side sign, for a unit force. Mirrored states
- * give mirrored bits, here and below. */
+/* h (s mu + eps disc): what friction does to a pad at rest that slips to the side sign, for a unit force. Mirrored
+ * states give mirrored bits, here and below. */
 BASE_INLINE float slip_f32_drive(const struct slip_f32_factors *f, float disc, int8_t sign)
 {
     return signed_by(sign, f->friction) + f->fade * disc;
@@ -44,8 +45,8 @@ BASE_INLINE float slip_f32_increment(const struct slip_f32_factors *f, float dri
     return slip_f32_push(f, drive, sign, v, p, has_floor) - f->spring * x;
 }
 
-/* RK4 over one piece, its sums by Nystrom's formulas: the stages need of x only what the spring makes of it, and x is linear
- * in the velocities before. */
+/* RK4 over one piece, its sums by Nystrom's formulas: the stages need of x only what the spring makes of it, and x is
+ * linear in the velocities before. */
 BASE_INLINE void slip_f32_go(const struct slip_f32_factors *f, float disc, int8_t sign, float x, float v1,
                              const struct normal_f32_piece *piece, struct slip_f32_end *end, bool has_floor)
 {

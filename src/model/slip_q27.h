@@ -1,8 +1,8 @@
 /* One slip piece in Q4.27: RK4 of the tangential equation with the sign of vr frozen.
  *
- * It is always computed as seen from the side to which the pad slips, where vr > 0: a mirrored pad goes through the same
- * integers, whatever the rounding. Time is counted in steps, so the factors carry h or the part of it that the piece takes,
- * and an "increment" is h x''. Signs are those with which a factor enters its sum. */
+ * It is always computed as seen from the side to which the pad slips, where vr > 0: a mirrored pad goes through the
+ * same integers, whatever the rounding. Time is counted in steps, so the factors carry h or the part of it that the
+ * piece takes, and an "increment" is h x''. Signs are those with which a factor enters its sum. */
 #ifndef MODEL_SLIP_Q27_H
 #define MODEL_SLIP_Q27_H
 
@@ -13,8 +13,8 @@
 #include "model/normal_q27.h"
 #include "model/sum_q27.h"
 
-/* Fraction bits of the factors: FINE where all of them stay below 1/2 and the states are small, which is the usual step;
- * WIDE holds whatever the scale admits. */
+/* Fraction bits of the factors: FINE where all of them stay below 1/2 and the states are small, which is the usual
+ * step; WIDE holds whatever the scale admits. */
 enum { SLIP_Q27_FINE = 32, SLIP_Q27_WIDE = 28 };
 
 struct slip_q27_factors {
@@ -36,8 +36,8 @@ struct slip_q27_view {
     int32_t drive; /* h (mu + eps disc) */
 };
 
-/* What rounding has left of x and v, as sum_q27_kept() has it, seen from the side too. Without it a small damping is lost
- * in the rounding, and a pad that comes to rest goes on to rustle. */
+/* What rounding has left of x and v, as sum_q27_kept() has it, seen from the side too. Without it a small damping is
+ * lost in the rounding, and a pad that comes to rest goes on to rustle. */
 struct slip_q27_rest {
     uint32_t x, v;
 };
@@ -63,8 +63,8 @@ BASE_INLINE int32_t slip_q27_factor(int64_t factor, bool *is_saturated)
     return fit;
 }
 
-/* In the fine arithmetic the upper word of fade times twice a state is in Q28, coarse beside a factor in Q32. What is cut off
- * averages to half a unit. */
+/* In the fine arithmetic the upper word of fade times twice a state is in Q28, coarse beside a factor in Q32. What is
+ * cut off averages to half a unit. */
 enum { SLIP_Q27_UPPER_UNIT = 16 };
 
 BASE_INLINE int32_t slip_q27_drive(const struct slip_q27_factors *f, int32_t disc, bool *is_saturated)
@@ -100,8 +100,8 @@ BASE_INLINE int32_t slip_q27_increment(const struct slip_q27_factors *f, const s
     return sum_q27(0, slip_q27_sum(f, view, (int64_t)f->spring * x, v, p, has_floor, is_saturated), bits, is_saturated);
 }
 
-/* The increment of a stage, rounded down. What this takes away is added to *below with the weight of the stage: shifted by
- * OUTER it counts once, by INNER twice. */
+/* The increment of a stage, rounded down. What this takes away is added to *below with the weight of the stage: shifted
+ * by OUTER it counts once, by INNER twice. */
 enum { SLIP_Q27_OUTER = 12, SLIP_Q27_INNER = 11 };
 
 BASE_INLINE int32_t slip_q27_stage(int64_t sum, uint32_t *below, unsigned weight, bool *is_saturated)
@@ -142,8 +142,8 @@ BASE_INLINE void slip_q27_go_wide(const struct slip_q27_factors *f, const struct
 
 /* --- Fine: the upper word of a sum is the increment, rounded down --- */
 
-/* What friction and damping do at a stage: the increment is drive p + drag v + what the spring does. On the floor of mu both are
- * others. */
+/* What friction and damping do at a stage: the increment is drive p + drag v + what the spring does. On the floor of mu
+ * both are others. */
 struct slip_q27_law {
     int32_t drive, drag;
 };
@@ -157,7 +157,8 @@ BASE_INLINE struct slip_q27_law slip_q27_law(const struct slip_q27_factors *f, c
     return (struct slip_q27_law){view->drive, f->damp + fixed_sum_of(f->fade, 2 * p).high * SLIP_Q27_UPPER_UNIT};
 }
 
-/* RK4 as its stages are linear: with v2 = v1 + a1/2, v3 = v1 + a2/2, v4 = v1 + a3 and the places of x that belong to them,
+/* RK4 as its stages are linear: with v2 = v1 + a1/2, v3 = v1 + a2/2, v4 = v1 + a3 and the places of x that belong to
+ * them,
  *
  *   a1 = spring x + drive p1 + drag v1
  *   a2 = spring x + drive p2 + (drag + half) v1 + drag/2 a1                  half: half_stretch
@@ -217,7 +218,8 @@ BASE_INLINE void slip_q27_go_fine(const struct slip_q27_factors *f, const struct
     end->first = a1;
 }
 
-/* --- Parts of a step ------------------------------------------------------------------------------------------------ */
+/* --- Parts of a step ------------------------------------------------------------------------------------------------
+ * */
 
 /* The factors of a part of the step, a fraction in Q30. Those of the floor are left alone where there is none. */
 void slip_q27_take_part(const struct slip_q27_factors *whole, int32_t fraction, bool has_floor, bool is_wide,

@@ -86,7 +86,8 @@ static BASE_NOINLINE void advance_in_pieces(struct step_f32 *s, const struct ste
     output->is_gap_held = is_gap_held;
 }
 
-/* --- The usual step: whole, without an event ------------------------------------------------------------------------ */
+/* --- The usual step: whole, without an event ------------------------------------------------------------------------
+ * */
 
 /* The step was tried as a whole, and for a slip up to end, and may hold an event. */
 static BASE_NOINLINE void find_event(struct step_f32 *s, const struct step_f32_coeffs *c, float y, float w, float dy,
@@ -125,8 +126,8 @@ BASE_INLINE void finish(struct step_f32 *s, const struct step_f32_coeffs *c, con
     output->is_lifted = !is_pressed && s->normal.y < 0.0f;
 }
 
-/* May the slip end inside the step? Asked of the signs alone: one way or the other vr is beyond 0 at the end, or on the first
- * tangent. What is not excluded here is for event_f32.c to say. */
+/* May the slip end inside the step? Asked of the signs alone: one way or the other vr is beyond 0 at the end, or on the
+ * first tangent. What is not excluded here is for event_f32.c to say. */
 BASE_INLINE bool may_cross(float disc, float v, const struct slip_f32_end *end, int32_t mode)
 {
     const uint32_t at_end = fmath_bits(disc - end->v);

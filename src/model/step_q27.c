@@ -1,4 +1,5 @@
-/* One step of the tangential equation in integers: the usual step at once, others in pieces between switches of regime. */
+/* One step of the tangential equation in integers: the usual step at once, others in pieces between switches of regime.
+ * */
 #include "model/step_q27.h"
 
 #include "model/event_q27.h"
@@ -31,8 +32,8 @@ static void configure_factors(struct slip_q27_factors *f, const struct scale *sc
     f->knee = ((int64_t)f->floor - f->friction) * (1 << 27);
 }
 
-/* Does the fine arithmetic serve contact forces up to this many quarters? Where a step starts with |x| and |v| below 2, no
- * increment of it exceeds 4 if none does under |v| <= 10 and |x| <= 2 + 16 travel; MODEL.md has the argument. */
+/* Does the fine arithmetic serve contact forces up to this many quarters? Where a step starts with |x| and |v| below 2,
+ * no increment of it exceeds 4 if none does under |v| <= 10 and |x| <= 2 + 16 travel; MODEL.md has the argument. */
 static bool is_fine(const struct scale *scale, int64_t quarters)
 {
     const int64_t travel = normal_q27_step(scale, 32u - scale->length_shift);
@@ -50,7 +51,8 @@ static bool is_fine(const struct scale *scale, int64_t quarters)
     return drive * quarters / 4 + 10 * drag + 2 * spring + 16 * fixed_round_up(spring * travel, 32u) <= 8 * FINE_LIMIT;
 }
 
-/* How far the normal motion may reach for the fine arithmetic to serve, or 0. The stages of RK4 look ahead by up to 3/5. */
+/* How far the normal motion may reach for the fine arithmetic to serve, or 0. The stages of RK4 look ahead by up to
+ * 3/5. */
 static int32_t fine_reach(const struct scale *scale)
 {
     for (int32_t quarters = 16; quarters > 0; quarters /= 2) {
@@ -143,7 +145,8 @@ static BASE_NOINLINE void advance_in_pieces(struct step_q27 *s, const struct ste
     output->is_gap_held = is_gap_held;
 }
 
-/* --- The usual step: whole, without an event, everything within the bounds of the fine arithmetic ------------------ */
+/* --- The usual step: whole, without an event, everything within the bounds of the fine arithmetic ------------------
+ * */
 
 /* The step was tried as a whole, up to y, w and for a slip up to end, and may hold an event. */
 static BASE_NOINLINE void find_event(struct step_q27 *s, const struct step_q27_coeffs *c, int32_t y, int32_t w,
@@ -154,8 +157,8 @@ static BASE_NOINLINE void find_event(struct step_q27 *s, const struct step_q27_c
     advance_in_pieces(s, c, &attempt, output);
 }
 
-/* An event may lie in the step, where this test does not exclude it, which is that of event_q27.c: a curve that stays above
- * its first tangent stays above 0 when the tangent does. */
+/* An event may lie in the step, where this test does not exclude it, which is that of event_q27.c: a curve that stays
+ * above its first tangent stays above 0 when the tangent does. */
 BASE_INLINE void slip_whole(struct step_q27 *s, const struct step_q27_coeffs *c, const struct normal_q27_piece *piece,
                             bool is_exact, bool has_floor, bool is_pressed, struct plant_output *output)
 {
@@ -188,8 +191,8 @@ BASE_INLINE void slip_whole(struct step_q27 *s, const struct step_q27_coeffs *c,
     output->is_lifted = !is_pressed && piece->y < 0;
 }
 
-/* The step is whole if friction still holds the pad at its end. Asked of the upper words alone, which now and then calls for
- * help without need. */
+/* The step is whole if friction still holds the pad at its end. Asked of the upper words alone, which now and then
+ * calls for help without need. */
 BASE_INLINE void stick_whole(struct step_q27 *s, const struct step_q27_coeffs *c, const struct normal_q27_piece *piece,
                              bool is_pressed, struct plant_output *output)
 {

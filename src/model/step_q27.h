@@ -1,5 +1,6 @@
-/* The plant in Q4.27: the twin of step_f32, integers from the input to the sample. Same options, same rules, same report;
- * what differs is the format of the states, and that x is counted in units of 2^length_shift, which lets a soft spring fit.
+/* The plant in Q4.27: the twin of step_f32, integers from the input to the sample. Same options, same rules, same
+ * report; what differs is the format of the states, and that x is counted in units of 2^length_shift, which lets a soft
+ * spring fit.
  *
  * Two kinds of arithmetic: a fast path for the usual step, whole, without an event, every number proven to fit; and a
  * general one that saturates and says so. The pad has left its domain when anything saturates. Headroom: MODEL.md. */

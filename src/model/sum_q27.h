@@ -85,8 +85,9 @@ BASE_INLINE int32_t sum_q27_kept(int32_t base, uint32_t *rest, int64_t sum, bool
 #define SUM_Q27_SIXTH_Q12 683
 
 /* The two sums of RK4 by Nystrom's formulas: mean = base + (a + b + c)/6, which the position takes, and the next
- * value = mean + (b + c + d)/6. The textbook's sum, six times as large, fits no 32 bits. rest is as above; below is what
- * a + 2 b + 2 c + d lack for having been rounded down, in 2^-20 of their unit, or 0 if they were rounded to nearest. */
+ * value = mean + (b + c + d)/6. The textbook's sum, six times as large, fits no 32 bits. rest is as above; below is
+ * what a + 2 b + 2 c + d lack for having been rounded down, in 2^-20 of their unit, or 0 if they were rounded to
+ * nearest. */
 BASE_INLINE int32_t sum_q27_rk4(int32_t base, uint32_t *rest, int32_t sixth, int32_t a, int32_t b, int32_t c, int32_t d,
                                 uint32_t below, int32_t *mean, bool *is_saturated)
 {

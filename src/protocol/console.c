@@ -72,8 +72,8 @@ static bool is_full(const struct console *console)
     return console->waiting_size + LINE_LENGTH_MAX + 2u > CONSOLE_WAITING_MAX;
 }
 
-/* A line goes before the next is looked at, so that echo and answers follow each other. Only while a task or the link is
- * at work lines gather, since one of them may say stop. */
+/* A line goes before the next is looked at, so that echo and answers follow each other. Only while a task or the link
+ * is at work lines gather, since one of them may say stop. */
 static bool may_take(const struct console *console)
 {
     const bool is_free = console->task == CONSOLE_TASK_NONE && console->turn->holder != TURN_LINK;
@@ -191,8 +191,8 @@ static void write_notice(struct console *console, const struct sample *now, cons
     text_end_line(console->text);
 }
 
-/* That somebody begins to steer, or ends, is no news; that the demand is too old is, and that it no longer is. What was said
- * of the propensity is void then. */
+/* That somebody begins to steer, or ends, is no news; that the demand is too old is, and that it no longer is. What was
+ * said of the propensity is void then. */
 static void tell_input_state(struct console *console, const struct sample *now)
 {
     if (watch_is_silent(now->watch) || watch_is_silent(console->told.watch)) {
@@ -239,8 +239,8 @@ static bool needs_turn(const struct console *console)
     return console->task != CONSOLE_TASK_NONE && console->task != CONSOLE_TASK_STUDY;
 }
 
-/* May the next line be obeyed? A stop makes the other side end early. So do more lines than can wait, where the other side is
- * stuck: a stop behind them could not be seen, and the console would be dead until somebody reads the link. */
+/* May the next line be obeyed? A stop makes the other side end early. So do more lines than can wait, where the other
+ * side is stuck: a stop behind them could not be seen, and the console would be dead until somebody reads the link. */
 static bool has_turn(struct console *console)
 {
     if (console->waiting_size > 0u && turn_take(console->turn, TURN_CONSOLE)) {

@@ -84,8 +84,8 @@ struct console {
     uint32_t uart_lost; /* bytes */
 };
 
-/* Binds to what it talks about and where it writes; text must hold at least twice CONSOLE_ANSWER_MAX. All must outlive the
- * console. [INIT] */
+/* Binds to what it talks about and where it writes; text must hold at least twice CONSOLE_ANSWER_MAX. All must outlive
+ * the console. [INIT] */
 void console_init(struct console *console, struct executive *executive, struct turn *turn, struct work *work,
                   struct text *text, const struct identity *identity);
 
@@ -98,8 +98,8 @@ size_t console_receive(struct console *console, const uint8_t *bytes, size_t siz
 /* So many more bytes were lost before they got here: the line in progress is damaged. [MAIN] */
 void console_lost(struct console *console, uint32_t count);
 
-/* Goes on with whatever can go on: samples, notices, the task under way, waiting lines. Returns true if it did something
- * after which the program should come again before it sleeps. [MAIN] */
+/* Goes on with whatever can go on: samples, notices, the task under way, waiting lines. Returns true if it did
+ * something after which the program should come again before it sleeps. [MAIN] */
 bool console_poll(struct console *console);
 
 #endif

@@ -19,8 +19,8 @@ void console_refuse_usage(struct console *console);
 /* "error out-of-range <key>=<word>: <low> .. <high>, a whole number" */
 void console_refuse_count(struct console *console, const char *key, struct token word, uint32_t low, uint32_t high);
 
-/* Reads a number in low .. high. If it is none, "error usage", "bad-number" or "out-of-range <key>=<word>: <low> .. <high>" has been
- * answered, and false comes back. */
+/* Reads a number in low .. high. If it is none, "error usage", "bad-number" or "out-of-range <key>=<word>: <low> ..
+ * <high>" has been answered, and false comes back. */
 bool console_read_number(struct console *console, const char *key, struct token word, float low, float high,
                          float *value);
 

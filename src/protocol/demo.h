@@ -1,5 +1,5 @@
-/* The story of a brake, told by the device: each act sets the plant, lets it go, and says what was measured. The acts are
- * demo.def. The user's tick and substeps are kept. */
+/* The story of a brake, told by the device: each act sets the plant, lets it go, and says what was measured. The acts
+ * are demo.def. The user's tick and substeps are kept. */
 #ifndef PROTOCOL_DEMO_H
 #define PROTOCOL_DEMO_H
 

@@ -4,9 +4,9 @@
  *     \___________________________________________________________________/
  *                     byte stuffing (base/cobs.h), then 00
  *
- * The CRC (base/crc32.h) covers all bytes before it. Type, sequence, step and payload mean nothing here. A 00 ends a frame
- * and nothing else, so whatever a line does to the bytes, the frame after the next 00 is received again; a sender may send
- * a 00 first to get rid of what the line held before. [MAIN] */
+ * The CRC (base/crc32.h) covers all bytes before it. Type, sequence, step and payload mean nothing here. A 00 ends a
+ * frame and nothing else, so whatever a line does to the bytes, the frame after the next 00 is received again; a sender
+ * may send a 00 first to get rid of what the line held before. [MAIN] */
 #ifndef PROTOCOL_FRAME_H
 #define PROTOCOL_FRAME_H
 
@@ -37,8 +37,8 @@ struct frame {
 /* Appends the frame, ready for the line, or returns false and leaves text as it was if it does not fit whole. */
 bool frame_write(struct text *text, const struct frame *frame);
 
-/* One end of a line. Each non-empty piece between two delimiters is accepted or counts under one of the five reasons, the
- * first that applies in this order. Counters wrap at 2^32. */
+/* One end of a line. Each non-empty piece between two delimiters is accepted or counts under one of the five reasons,
+ * the first that applies in this order. Counters wrap at 2^32. */
 struct frame_receiver {
     uint8_t bytes[FRAME_STUFFED_MAX];
     size_t size;                  /* bytes of the frame in progress, as far as they fit */
@@ -56,8 +56,8 @@ struct frame_receiver {
 /* Nothing received, counters 0. [INIT] */
 void frame_open(struct frame_receiver *receiver);
 
-/* Takes one byte; true if it ends a good frame, which is then in *frame. Otherwise *frame is left as it was. Constant work
- * but for a delimiter, which may cost unstuffing and CRC of one frame. */
+/* Takes one byte; true if it ends a good frame, which is then in *frame. Otherwise *frame is left as it was. Constant
+ * work but for a delimiter, which may cost unstuffing and CRC of one frame. */
 bool frame_take(struct frame_receiver *receiver, uint8_t byte, struct frame *frame);
 
 /* Bytes were lost on the way here: what comes until the next delimiter, with what came before, is no frame. */

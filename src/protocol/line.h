@@ -1,6 +1,6 @@
-/* Bytes become lines. A line is printable ASCII of at most LINE_LENGTH_MAX characters; tab counts as a blank, backspace and
- * delete rub out, CR, LF and CR LF end it. Lines of blanks alone are none. EOT says that no line will follow. What is typed
- * is echoed into the output. */
+/* Bytes become lines. A line is printable ASCII of at most LINE_LENGTH_MAX characters; tab counts as a blank, backspace
+ * and delete rub out, CR, LF and CR LF end it. Lines of blanks alone are none. EOT says that no line will follow. What
+ * is typed is echoed into the output. */
 #ifndef PROTOCOL_LINE_H
 #define PROTOCOL_LINE_H
 

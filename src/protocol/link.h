@@ -1,5 +1,5 @@
-/* The binary link: frames in, frames out, hardware-free, for a program that steers the plant step by step. The main loop
- * turns it as it turns the console:
+/* The binary link: frames in, frames out, hardware-free, for a program that steers the plant step by step. The main
+ * loop turns it as it turns the console:
  *
  *     link_lost(&link, bytes that the UART lost since the last time)
  *     taken = link_receive(&link, bytes, size)               what was not taken is offered again
@@ -9,8 +9,8 @@
  *   bytes -> frame -> request -> reply, or an order or steps and later the reply -> bytes
  *                                samples, results of a study -------------------->
  *
- * One request at a time; the next is not looked at before this one is answered. Nothing here waits. The specification is
- * PROTOCOL.md. */
+ * One request at a time; the next is not looked at before this one is answered. Nothing here waits. The specification
+ * is PROTOCOL.md. */
 #ifndef PROTOCOL_LINK_H
 #define PROTOCOL_LINK_H
 
@@ -96,7 +96,8 @@ struct link {
     uint32_t refused; /* requests answered with ERROR */
 };
 
-/* Binds to what it talks about and where it writes; text must hold at least two frames. All must outlive the link. [INIT] */
+/* Binds to what it talks about and where it writes; text must hold at least two frames. All must outlive the link.
+ * [INIT] */
 void link_init(struct link *link, struct executive *executive, struct turn *turn, struct work *work, struct text *text,
                const struct identity *identity);
 

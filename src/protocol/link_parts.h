@@ -40,7 +40,8 @@ enum link_progress link_refuse_plain(struct link *link, enum error error);
 /* Is there room for a frame that comes by itself, and a reply after it? */
 bool link_has_room(const struct link *link);
 
-/* May the plant, which stands as the report says, be stepped or copied from here? Takes the turn. ERROR_OK, or why not. */
+/* May the plant, which stands as the report says, be stepped or copied from here? Takes the turn. ERROR_OK, or why not.
+ * */
 enum error link_find_obstacle(struct link *link, const struct executive_report *report);
 
 /* Samples of the link's stream: is one waiting, those written or lost since it began. */
@@ -62,8 +63,8 @@ void link_put_value(struct bytes_writer *writer, float value);
 /* The set that COMMIT would put into force, which follows the set in force whenever that changes. */
 struct params *link_staged(struct link *link);
 
-/* CRC-32 over the floats of a set in the order of the table, low byte first, and behind them over each table of breakpoints:
- * their count as a byte, and their times and values in turn. */
+/* CRC-32 over the floats of a set in the order of the table, low byte first, and behind them over each table of
+ * breakpoints: their count as a byte, and their times and values in turn. */
 uint32_t link_crc(const struct params *params);
 
 /* One for each row of messages.def. */

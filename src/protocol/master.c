@@ -88,8 +88,9 @@ static enum master_event close_request(struct master *master, const struct frame
     return event;
 }
 
-/* A refused STEP and the next one have the same sequence, so a second refusal of the first could pass for one of the next.
- * Byte for byte the same, it is taken for such an echo; if that is wrong, the request is asked again and refused again. */
+/* A refused STEP and the next one have the same sequence, so a second refusal of the first could pass for one of the
+ * next. Byte for byte the same, it is taken for such an echo; if that is wrong, the request is asked again and refused
+ * again. */
 static bool is_echo(struct master *master, const struct frame *frame)
 {
     if (master->echoes == 0u || memcmp(frame->payload, master->refusal, LINK_ERROR_SIZE) != 0) {

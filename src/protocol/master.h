@@ -49,11 +49,13 @@ struct master {
 /* Nothing asked, nothing received. [INIT] */
 void master_init(struct master *master);
 
-/* Appends a request's frame to out; the first one, and one that follows silence, behind a 00 that ends whatever the line held
- * before. Size as in messages.def; STEP goes by master_step(). False, and nothing is done, if out lacks the room. */
+/* Appends a request's frame to out; the first one, and one that follows silence, behind a 00 that ends whatever the
+ * line held before. Size as in messages.def; STEP goes by master_step(). False, and nothing is done, if out lacks the
+ * room. */
 bool master_ask(struct master *master, struct text *out, enum link_message type, const void *payload, size_t size);
 
-/* STEP: count steps (1 .. 1000000) from where the plant stood at the last reply, with a demand; its step does not matter. */
+/* STEP: count steps (1 .. 1000000) from where the plant stood at the last reply, with a demand; its step does not
+ * matter. */
 bool master_step(struct master *master, struct text *out, uint32_t count, const struct input_demand *demand);
 
 /* The request that waits, once more and byte by byte the same. */

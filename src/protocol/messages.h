@@ -1,4 +1,5 @@
-/* What both ends of the link must know: versions, types and the numbers inside payloads. The specification is PROTOCOL.md. */
+/* What both ends of the link must know: versions, types and the numbers inside payloads. The specification is
+ * PROTOCOL.md. */
 #ifndef PROTOCOL_MESSAGES_H
 #define PROTOCOL_MESSAGES_H
 

@@ -32,8 +32,8 @@ struct report_verdict {
 
 struct report_verdict report_judge(const struct detector_verdict *verdict, const struct scale *scale);
 
-/* All that a verdict says: of the plant as it is, and of what the closed form says of its set or, where a controller holds
- * force or speed, of what it holds. */
+/* All that a verdict says: of the plant as it is, and of what the closed form says of its set or, where a controller
+ * holds force or speed, of what it holds. */
 struct report_answer {
     struct report_verdict judged;
     uint8_t predicted; /* enum predictor_verdict */
@@ -66,10 +66,10 @@ struct report_trial {
 
 struct report_trial report_trial(const struct trial *trial);
 
-/* Estimate of the sound pressure level of a pad that moves with this rms velocity, for tones in which the A-weighting lies
- * within 2 dB of nothing (0.8 to 9 kHz); nan elsewhere. The pad is taken as a rigid piston of 0.01 m2 with radiation
- * efficiency 1 that radiates into a half space, heard at 0.5 m: p = rho c v sqrt(S/(2 pi r^2)), rho c = 413 N s/m3. Real
- * brakes radiate with other areas and efficiencies; the number ranks, it does not certify. */
+/* Estimate of the sound pressure level of a pad that moves with this rms velocity, for tones in which the A-weighting
+ * lies within 2 dB of nothing (0.8 to 9 kHz); nan elsewhere. The pad is taken as a rigid piston of 0.01 m2 with
+ * radiation efficiency 1 that radiates into a half space, heard at 0.5 m: p = rho c v sqrt(S/(2 pi r^2)), rho c = 413 N
+ * s/m3. Real brakes radiate with other areas and efficiencies; the number ranks, it does not certify. */
 float report_sound_level(float velocity_m_per_s_rms, float frequency_hz);
 
 /* Fields " key=value" of the answers. [MAIN] */

@@ -1,5 +1,6 @@
-/* The firmware's own checks, run on the device it runs on: numbers as text, and a second plant against what is known about
- * it in closed form, the paper's solution of forced slip (set right) among it. The plant in the interrupt goes on undisturbed. */
+/* The firmware's own checks, run on the device it runs on: numbers as text, and a second plant against what is known
+ * about it in closed form, the paper's solution of forced slip (set right) among it. The plant in the interrupt goes on
+ * undisturbed. */
 #ifndef PROTOCOL_SELFTEST_H
 #define PROTOCOL_SELFTEST_H
 

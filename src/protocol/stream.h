@@ -1,5 +1,5 @@
-/* Samples on their way out as text, decimated by count. What the line cannot carry is refused before it starts; what gets
- * lost all the same is counted and shows as a gap in the step column. */
+/* Samples on their way out as text, decimated by count. What the line cannot carry is refused before it starts; what
+ * gets lost all the same is counted and shows as a gap in the step column. */
 #ifndef PROTOCOL_STREAM_H
 #define PROTOCOL_STREAM_H
 

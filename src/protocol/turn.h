@@ -1,9 +1,9 @@
-/* Whose turn it is: console and link talk to one executive, and only one of them at a time may have an order or steps under
- * way. Whoever has the turn keeps it until its command is answered; the other's commands wait (console) or are refused
- * (link). Only a stop does not wait: turn_want() makes the other end early.
+/* Whose turn it is: console and link talk to one executive, and only one of them at a time may have an order or steps
+ * under way. Whoever has the turn keeps it until its command is answered; the other's commands wait (console) or are
+ * refused (link). Only a stop does not wait: turn_want() makes the other end early.
  *
- * The executive's one ring of samples belongs to one stream: it is refused to the other until that has ended. So is the one
- * study to whoever asks for a second. A study has a plant of its own and needs no turn. [MAIN] */
+ * The executive's one ring of samples belongs to one stream: it is refused to the other until that has ended. So is the
+ * one study to whoever asks for a second. A study has a plant of its own and needs no turn. [MAIN] */
 #ifndef PROTOCOL_TURN_H
 #define PROTOCOL_TURN_H
 

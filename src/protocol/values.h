@@ -21,8 +21,8 @@ void values_write_range(struct text *text, const struct params_info *info, float
 /* The same as a person should read it: "0 .. 12000 N", "1 .. 64, a whole number". */
 void values_write_allowed(struct text *text, const struct params_info *info, float low, float high);
 
-/* What follows "error <name>": the parameter, the value as it was typed, or if it was not, as the set would have it, and
- * what would have been accepted. */
+/* What follows "error <name>": the parameter, the value as it was typed, or if it was not, as the set would have it,
+ * and what would have been accepted. */
 void values_write_problem(struct text *text, const struct params_problem *problem, const struct params *wanted,
                           struct token typed);
 

@@ -2,8 +2,8 @@
  *
  *   profile or curve, with offset and limits -> lag -> + dither            sim/profile.h, sim/curve.h, model/demand.h
  *
- * Without a lag and without an inertia the value of a step depends on its index alone. With them it has a state, which is that of
- * the beginning of the step to come; the value held over the step is that of its middle:
+ * Without a lag and without an inertia the value of a step depends on its index alone. With them it has a state, which
+ * is that of the beginning of the step to come; the value held over the step is that of its middle:
  *
  *   lag      s' = (demand - s)/lag, solved exactly for a demand that is held over the step
  *   inertia  J v'/R = - pads F R, F the friction at the end of the step before; it stands where it would turn round

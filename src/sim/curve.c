@@ -127,8 +127,8 @@ static int32_t line_value(const struct curve *curve, uint32_t passed, uint64_t t
     return limited(curve, (int32_t)(curve->value[i] + fixed_shift_right(change, 30u)));
 }
 
-/* A jump that comes `late` after the beginning of the step, -1 to 1 steps in Q30: what the step has of it beyond the value at its
- * middle, in Q30. */
+/* A jump that comes `late` after the beginning of the step, -1 to 1 steps in Q30: what the step has of it beyond the
+ * value at its middle, in Q30. */
 static int64_t share_of_jump(int64_t late)
 {
     const int64_t one = INT64_C(1) << 30;

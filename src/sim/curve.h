@@ -1,6 +1,7 @@
-/* A profile by straight lines from point to point: pulses, and tables. In integers, for both arithmetics: times in 2^-30 model
- * steps since reset, values in Q4.27. Evaluated from the step's index alone, in the middle of each step; a jump of the brake
- * force is spread over two steps like a load step (sim/profile.h), one of the disc's speed moves to the nearest grid point. */
+/* A profile by straight lines from point to point: pulses, and tables. In integers, for both arithmetics: times in
+ * 2^-30 model steps since reset, values in Q4.27. Evaluated from the step's index alone, in the middle of each step; a
+ * jump of the brake force is spread over two steps like a load step (sim/profile.h), one of the disc's speed moves to
+ * the nearest grid point. */
 #ifndef SIM_CURVE_H
 #define SIM_CURVE_H
 

@@ -134,8 +134,8 @@ static uint64_t square_of_change(int64_t change)
     return bounded * bounded;
 }
 
-/* Once a period. The second difference of three strobes is blind to what repeats every period and to a steady drift: what
- * is left is the free part of the motion. */
+/* Once a period. The second difference of three strobes is blind to what repeats every period and to a steady drift:
+ * what is left is the free part of the motion. */
 static BASE_NOINLINE void book_strobe(struct detector *detector, const struct plant_output *output)
 {
     const uint32_t slot = detector->strobes % DETECTOR_STROBES;

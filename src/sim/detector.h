@@ -1,5 +1,5 @@
-/* Does the brake squeal, and how? A streaming detector for the timer interrupt: integer arithmetic on the plant's output,
- * a bounded handful of operations a step, the longer work sliced over the steps that follow.
+/* Does the brake squeal, and how? A streaming detector for the timer interrupt: integer arithmetic on the plant's
+ * output, a bounded handful of operations a step, the longer work sliced over the steps that follow.
  *
  *   step    -> period -> frame (8 periods) -> window (4 frames) -> verdict
  *   extremes   strobe    growth, events       propensity, class
@@ -125,9 +125,9 @@ void detector_restart(struct detector *detector, const struct detector_config *c
  * while a search is under way, 16 with 16 steps a period. [ISR] */
 bool detector_push(struct detector *detector, const struct plant_output *output);
 
-/* A step that must not count, since nobody knows what it answers to: only where the plant stands is noted. After a restart
- * the verdict stays unknown over such steps, however many, and its window begins with the first that counts again. Returns
- * false. [ISR] */
+/* A step that must not count, since nobody knows what it answers to: only where the plant stands is noted. After a
+ * restart the verdict stays unknown over such steps, however many, and its window begins with the first that counts
+ * again. Returns false. [ISR] */
 bool detector_skip(struct detector *detector, const struct plant_output *output);
 
 /* The plant left its domain: squeal, diverging, until reset. [ISR] */

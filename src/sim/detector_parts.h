@@ -1,5 +1,5 @@
-/* The detector's own rooms: booking (detector.c), rules (detector_rules.c), search for a period (detector_search.c). Not
- * for anybody else. */
+/* The detector's own rooms: booking (detector.c), rules (detector_rules.c), search for a period (detector_search.c).
+ * Not for anybody else. */
 #ifndef SIM_DETECTOR_PARTS_H
 #define SIM_DETECTOR_PARTS_H
 

@@ -164,7 +164,8 @@ static uint32_t normal_speed(const struct detector_frame *frame)
     return (uint32_t)(((int64_t)frame->w_max - frame->w_min) / 2);
 }
 
-/* Speed that the normal motion present in y explains: the load's sine by its own response, the rest as free oscillation. */
+/* Speed that the normal motion present in y explains: the load's sine by its own response, the rest as free
+ * oscillation. */
 static uint32_t forced_speed(const struct detector *detector, const struct detector_frame *frame)
 {
     const uint32_t normal = normal_speed(frame);
@@ -229,8 +230,8 @@ static bool is_steady(const struct detector *detector)
     return most - least <= most >> (is_falling ? FALLING_SHIFT : STEADY_SHIFT);
 }
 
-/* Is it known that the motion does not die out? After a jolt nothing is. Where the normal frequency is near a multiple of
- * the motion's own, the free part hardly changes from strobe to strobe and drowns in rounding: then speed tells. */
+/* Is it known that the motion does not die out? After a jolt nothing is. Where the normal frequency is near a multiple
+ * of the motion's own, the free part hardly changes from strobe to strobe and drowns in rounding: then speed tells. */
 static bool lasts(const struct detector *detector)
 {
     const struct detector_verdict *verdict = &detector->verdict;

@@ -1,5 +1,5 @@
-/* Which period does the motion repeat in, if any? Strobes where the normal oscillation sets the clock, maxima of x where
- * the pad keeps its own. A few comparisons a step. */
+/* Which period does the motion repeat in, if any? Strobes where the normal oscillation sets the clock, maxima of x
+ * where the pad keeps its own. A few comparisons a step. */
 #include "base/compiler.h"
 #include "base/fixed.h"
 #include "sim/detector_parts.h"
@@ -19,8 +19,8 @@ enum {
     NORMAL_SILENT = 1 << 19 /* normal speed below 1/256: nothing that could set the clock */
 };
 
-/* The longest search: every period that is tried agrees up to its last pair. It ends before the next frame does, three steps of
- * which do other work. */
+/* The longest search: every period that is tried agrees up to its last pair. It ends before the next frame does, three
+ * steps of which do other work. */
 #define PAIRS_OF(compared, periods) ((periods) * (compared) - (periods) * ((periods) + 1) / 2)
 #define PAIRS_MAX (PAIRS_OF(STROBES_COMPARED, DETECTOR_PERIOD_MAX) + PAIRS_OF(PEAKS_COMPARED, PEAK_PERIOD_MAX))
 #define FRAME_STEPS(steps_per_period) (DETECTOR_FRAME_PERIODS * (steps_per_period)-3)

@@ -102,8 +102,8 @@ struct executive {
     uint32_t resets;              /* ordered, since the start */
 };
 
-/* Starts with the defaults in the given number format (ARITH_F32 or ARITH_Q27), which is the board's; the plant stands at
- * step 0 without credit. [INIT] */
+/* Starts with the defaults in the given number format (ARITH_F32 or ARITH_Q27), which is the board's; the plant stands
+ * at step 0 without credit. [INIT] */
 void executive_init(struct executive *executive, int arithmetic);
 
 /* --- main --------------------------------------------------------------------------------------------------------- */
@@ -111,13 +111,13 @@ void executive_init(struct executive *executive, int arithmetic);
 /* An order given waits until the next tick, or until the program triggers one; no further order can be given before. */
 bool executive_has_order(const struct executive *executive);
 
-/* Checks a set and orders it. Where restart parameters differ from the set in use: with may_reset the plant restarts, else
- * NEEDS_RESTART. On a problem nothing changes. *was_reset (may be NULL) tells which. [MAIN] */
+/* Checks a set and orders it. Where restart parameters differ from the set in use: with may_reset the plant restarts,
+ * else NEEDS_RESTART. On a problem nothing changes. *was_reset (may be NULL) tells which. [MAIN] */
 struct params_problem executive_set(struct executive *executive, const struct params *params, bool may_reset,
                                     bool *was_reset);
 
-/* The same for a change as a user means it: while the plant stands at step 0 nothing can be lost, and every change is a reset, so
- * that the scale follows the set; while it runs nothing may reset it. [MAIN] */
+/* The same for a change as a user means it: while the plant stands at step 0 nothing can be lost, and every change is a
+ * reset, so that the scale follows the set; while it runs nothing may reset it. [MAIN] */
 struct params_problem executive_change(struct executive *executive, const struct params *params, bool may_reset,
                                        bool *was_reset);
 
@@ -130,26 +130,28 @@ void executive_stream(struct executive *executive, uint32_t every);
 /* Orders a measurement over n steps from here, without granting them. [MAIN] */
 void executive_measure(struct executive *executive, uint64_t steps);
 
-/* Orders a copy of the run into executive->image, which is main's again once the order is taken. The plant must stand, and
- * not in a fault; anything that shall not be in it must have been waited for. [MAIN] */
+/* Orders a copy of the run into executive->image, which is main's again once the order is taken. The plant must stand,
+ * and not in a fault; anything that shall not be in it must have been waited for. [MAIN] */
 void executive_snapshot(struct executive *executive);
 
 /* Checks the image, and orders a reset to the run in it. What may be wrong is snapshot_check()'s to say; then nothing
  * changes. [MAIN] */
 struct params_problem executive_restore(struct executive *executive);
 
-/* Hands over a controller's demand, to be taken before its step, in whatever order; up to INPUT_QUEUE_MAX wait. A reset voids
- * what waits, and the profiles act again. BUSY if there is no place, SAFE_STATE where an explicit start must come first:
- * nothing is handed over then, and it is counted. *is_clamped (may be NULL) tells whether a limit held it. [MAIN] */
+/* Hands over a controller's demand, to be taken before its step, in whatever order; up to INPUT_QUEUE_MAX wait. A reset
+ * voids what waits, and the profiles act again. BUSY if there is no place, SAFE_STATE where an explicit start must come
+ * first: nothing is handed over then, and it is counted. *is_clamped (may be NULL) tells whether a limit held it.
+ * [MAIN] */
 enum error executive_input(struct executive *executive, const struct input_demand *demand, bool *is_clamped);
 
-/* Credit: n more steps (at most EXECUTIVE_GRANT_MAX outstanding), endless, or none any more. A free run is an explicit start,
- * and leaves the safe state, by an order; BUSY if there is no place for that. [MAIN] */
+/* Credit: n more steps (at most EXECUTIVE_GRANT_MAX outstanding), endless, or none any more. A free run is an explicit
+ * start, and leaves the safe state, by an order; BUSY if there is no place for that. [MAIN] */
 void executive_grant(struct executive *executive, uint32_t steps);
 enum error executive_free_run(struct executive *executive);
 void executive_stop(struct executive *executive);
 
-/* Takes the credit back by an order that changes nothing: once it is taken, the report tells where the plant stands. [MAIN] */
+/* Takes the credit back by an order that changes nothing: once it is taken, the report tells where the plant stands.
+ * [MAIN] */
 void executive_halt(struct executive *executive);
 
 /* Steps of credit left; 0 in free run. [ANY] */
@@ -173,8 +175,8 @@ const struct scale *executive_scale(const struct executive *executive, uint8_t e
 
 /* --- interrupt ---------------------------------------------------------------------------------------------------- */
 
-/* Takes an order if there is one; if a period has passed, makes up to substeps steps. True if it did; false too where the
- * tick was shed. [ISR] */
+/* Takes an order if there is one; if a period has passed, makes up to substeps steps. True if it did; false too where
+ * the tick was shed. [ISR] */
 bool executive_tick(struct executive *executive, bool is_due);
 
 /* What one tick took, in counts of the program's clock. */
@@ -185,8 +187,8 @@ struct executive_tick_time {
 };
 
 /* Books a tick's time. One that was late, or left main less than 1/16 of the period, is an overrun: as many ticks as it
- * took periods are shed after it, and one more, so that main has at least half of the time whatever the load. A tick that
- * was shed is never late. Returns whether the timer should go on. [ISR] */
+ * took periods are shed after it, and one more, so that main has at least half of the time whatever the load. A tick
+ * that was shed is never late. Returns whether the timer should go on. [ISR] */
 bool executive_book(struct executive *executive, const struct executive_tick_time *time, bool is_late);
 
 /* Ticks are being shed after an overrun. [ISR] */

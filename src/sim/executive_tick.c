@@ -62,7 +62,8 @@ static BASE_NOINLINE void take_due_inputs(struct executive *executive)
     word_write(&executive->inputs_queued, waiting->count);
 }
 
-/* New demands take hold or find their places, for which main keeps room. What belongs to the run before a reset is void. */
+/* New demands take hold or find their places, for which main keeps room. What belongs to the run before a reset is
+ * void. */
 static BASE_NOINLINE void collect_inputs(struct executive *executive)
 {
     struct input input;

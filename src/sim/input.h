@@ -1,6 +1,7 @@
-/* What a controller asks of the brake while it runs: a force and a disc speed held from a given step on, in place of the
- * set's profiles. Main turns a demand, in the units of a brake engineer, into an input in the model's; the interrupt takes it
- * at its step and nowhere else, so the trajectory is a function of the demands and their steps alone. */
+/* What a controller asks of the brake while it runs: a force and a disc speed held from a given step on, in place of
+ * the set's profiles. Main turns a demand, in the units of a brake engineer, into an input in the model's; the
+ * interrupt takes it at its step and nowhere else, so the trajectory is a function of the demands and their steps
+ * alone. */
 #ifndef SIM_INPUT_H
 #define SIM_INPUT_H
 
@@ -49,8 +50,8 @@ struct input {
     int32_t load_q27, speed_q27;
 };
 
-/* Derives an input. A force below 0 or beyond N_max, a speed beyond what the scale holds, are held at the limit: true then.
- * Values must be finite. [MAIN] */
+/* Derives an input. A force below 0 or beyond N_max, a speed beyond what the scale holds, are held at the limit: true
+ * then. Values must be finite. [MAIN] */
 bool input_derive(struct input *input, const struct input_demand *demand, const struct params *params,
                   const struct scale *scale);
 

@@ -59,8 +59,8 @@ static float natural_unit(const struct params *params, const struct params_info 
     return IS(friction_slope_s_per_m) ? impedance / load : 1.0f;
 }
 
-/* Value of a rung; false if there is none. From a value: by ratios that square, away to the factor or in to its inverse. From
- * 0: by powers of two up from a thousandth of the natural unit. */
+/* Value of a rung; false if there is none. From a value: by ratios that square, away to the factor or in to its
+ * inverse. From 0: by powers of two up from a thousandth of the natural unit. */
 static bool rung_value(const struct margin *margin, float *value)
 {
     const float sign = margin->side == ABOVE ? 1.0f : -1.0f;

@@ -3,8 +3,8 @@
  *
  *   margin_begin -> margin_next -> (trial) -> margin_take -> margin_next ... false: below and above are known
  *
- * The nearest border is the nearest that the ladder's rungs (9 %, 30 %, 83 %, 270 %, ... of the value) do not step over: an
- * island of squeal narrower than a rung can be missed. */
+ * The nearest border is the nearest that the ladder's rungs (9 %, 30 %, 83 %, 270 %, ... of the value) do not step
+ * over: an island of squeal narrower than a rung can be missed. */
 #ifndef SIM_MARGIN_H
 #define SIM_MARGIN_H
 
@@ -44,8 +44,8 @@ struct margin {
     float tried;
 };
 
-/* Is the parameter one whose border is asked for: an amount of the pad, its friction, its load or its disc that acts once the
- * profiles have come to rest? [ANY, pure] */
+/* Is the parameter one whose border is asked for: an amount of the pad, its friction, its load or its disc that acts
+ * once the profiles have come to rest? [ANY, pure] */
 bool margin_covers(const struct params *params, const struct params_info *info);
 
 /* is_loud: what a trial of the base said. [MAIN] */

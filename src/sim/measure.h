@@ -1,5 +1,6 @@
-/* What the plant did over a given number of steps: extremes, shares, frequency. Integer arithmetic on the plant's output,
- * the same for every number format. One measurement runs at a time; it is started at a step boundary and closes itself. */
+/* What the plant did over a given number of steps: extremes, shares, frequency. Integer arithmetic on the plant's
+ * output, the same for every number format. One measurement runs at a time; it is started at a step boundary and closes
+ * itself. */
 #ifndef SIM_MEASURE_H
 #define SIM_MEASURE_H
 

@@ -1,6 +1,6 @@
-/* How often a brake squeals when nobody knows it exactly: the same set again and again with mu_s, alpha, c and N scattered
- * about their values. Draw i is a function of (seed, i) alone and the same to the bit everywhere. The disc's surface is
- * another one in every draw.
+/* How often a brake squeals when nobody knows it exactly: the same set again and again with mu_s, alpha, c and N
+ * scattered about their values. Draw i is a function of (seed, i) alone and the same to the bit everywhere. The disc's
+ * surface is another one in every draw.
  *
  * One bit is not believed on a rig; a share of trials with its confidence interval is. */
 #ifndef SIM_OCCURRENCE_H

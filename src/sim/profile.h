@@ -1,11 +1,11 @@
-/* What is asked of brake force and disc speed over time, in its plainest forms: constant, step, ramp, sine. Times are in model
- * steps since reset, values in the model's units, with offset and limits; a value is that of the middle of its step,
- * t = (i + 1/2) h, and is held over it. Pulses and tables are sim/curve.h, what becomes of it all sim/acting.h.
+/* What is asked of brake force and disc speed over time, in its plainest forms: constant, step, ramp, sine. Times are
+ * in model steps since reset, values in the model's units, with offset and limits; a value is that of the middle of its
+ * step, t = (i + 1/2) h, and is held over it. Pulses and tables are sim/curve.h, what becomes of it all sim/acting.h.
  *
  * A load step inside a model step f h after its start is spread over two, so that its impulse and its first moment are
- * those of the real one: n = from + (to - from) (2 - f)(1 - f)/2, then from + (to - from) (2 - f)(1 + f)/2. What remains
- * is of third order in h; rounding the instant to the grid would leave up to h/2 of the change. The disc's speed changes
- * at the nearest grid point. */
+ * those of the real one: n = from + (to - from) (2 - f)(1 - f)/2, then from + (to - from) (2 - f)(1 + f)/2. What
+ * remains is of third order in h; rounding the instant to the grid would leave up to h/2 of the change. The disc's
+ * speed changes at the nearest grid point. */
 #ifndef SIM_PROFILE_H
 #define SIM_PROFILE_H
 
@@ -28,8 +28,8 @@ struct profile {
     uint64_t end;
 };
 
-/* Profile of a checked demand, of which any other kind is taken for a constant; unit is that of the model, N or m/s. is_shared:
- * a step is spread, else it moves to the grid. [MAIN] */
+/* Profile of a checked demand, of which any other kind is taken for a constant; unit is that of the model, N or m/s.
+ * is_shared: a step is spread, else it moves to the grid. [MAIN] */
 void profile_derive(struct profile *profile, const struct demand *demand, const struct scale *scale, float unit,
                     bool is_shared);
 

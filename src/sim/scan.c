@@ -27,7 +27,8 @@ float scan_axis_value(const struct scan_axis *axis, uint32_t place)
     }
     share = (float)place / (float)(axis->points - 1u);
     if (axis->is_log) {
-        /* In two halves, neither of which leaves the numbers: the ends may be further apart than single precision is wide. */
+        /* In two halves, neither of which leaves the numbers: the ends may be further apart than single precision is
+         * wide. */
         const float half =
             fmath_exp2(0.5f * share * (fmath_log2(fmath_abs(axis->to)) - fmath_log2(fmath_abs(axis->from))));
 

@@ -1,5 +1,5 @@
-/* A map: one or two parameters of a set walked over a grid, a trial at each point. The rows of the second axis follow each
- * other, along each the first axis runs fastest. It hands out sets and keeps none of the answers. */
+/* A map: one or two parameters of a set walked over a grid, a trial at each point. The rows of the second axis follow
+ * each other, along each the first axis runs fastest. It hands out sets and keeps none of the answers. */
 #ifndef SIM_SCAN_H
 #define SIM_SCAN_H
 

@@ -243,9 +243,9 @@ static BASE_NOINLINE bool look_closer(struct sim *sim, int32_t v_before)
 
 /* --- The usual step ----------------------------------------------------------------------------------------------- */
 
-/* Load and speed stand, nothing has a state, nobody measures, a controller is not silent: there is no more to a step than
- * plant, detector and hash. Asked at the end of a step for all that follow; whatever may change one of these clears
- * is_usual, so that it is asked anew. */
+/* Load and speed stand, nothing has a state, nobody measures, a controller is not silent: there is no more to a step
+ * than plant, detector and hash. Asked at the end of a step for all that follow; whatever may change one of these
+ * clears is_usual, so that it is asked anew. */
 static bool will_be_usual(const struct sim *sim)
 {
     const struct sim_plan *plan = sim->plan;

@@ -1,5 +1,6 @@
 /* One plant with its load, its detector and its counters: what a tick advances. Everything lives in a struct that the
- * caller owns, so a program may run several side by side. The trajectory depends on the set and the step index alone. */
+ * caller owns, so a program may run several side by side. The trajectory depends on the set and the step index alone.
+ * */
 #ifndef SIM_SIM_H
 #define SIM_SIM_H
 
@@ -82,15 +83,16 @@ struct sim {
 /* Back to the initial state of the plan at step 0. The plan must outlive its use here. [ISR] */
 void sim_reset(struct sim *sim, const struct sim_plan *plan);
 
-/* A new set takes hold between two steps; state and units are kept. The plan before it must still be as it was. [ISR] */
+/* A new set takes hold between two steps; state and units are kept. The plan before it must still be as it was. [ISR]
+ * */
 void sim_apply(struct sim *sim, const struct sim_plan *plan);
 
-/* A controller's demand takes hold with the next step. In the safe state only one that starts does; any other is void, and
- * counted. [ISR] */
+/* A controller's demand takes hold with the next step. In the safe state only one that starts does; any other is void,
+ * and counted. [ISR] */
 void sim_input(struct sim *sim, const struct input *input);
 
-/* Asked before each step while a watch is on (sim->watch.state): how old is the controller's demand? In the safe state it
- * lowers the force. [ISR] */
+/* Asked before each step while a watch is on (sim->watch.state): how old is the controller's demand? In the safe state
+ * it lowers the force. [ISR] */
 void sim_watch(struct sim *sim, const struct watch_pace *pace);
 
 /* One step: load, plant, domain check, detector, measurement, hash. In a fault it does nothing. Returns true when the

@@ -2,7 +2,8 @@
 #include "base/fixed.h"
 #include "sim/sim_parts.h"
 
-/* A lag or an inertia that a set brings goes on from what acts now, without the dither, which the set puts on top again. */
+/* A lag or an inertia that a set brings goes on from what acts now, without the dither, which the set puts on top
+ * again. */
 static bool begins_to_follow(const struct acting *before, const struct acting *after)
 {
     return (after->has_lag && !before->has_lag) || (after->kind == DEMAND_INERTIA && before->kind != DEMAND_INERTIA);

@@ -1,6 +1,6 @@
-/* What a run can have become. Whoever makes an image may put any bits into it and a CRC that fits; the checks that matter are
- * those before an index, a divisor, a loop's end, or a sum that is proven to fit only under bounds. All allow a little more
- * than a run needs. */
+/* What a run can have become. Whoever makes an image may put any bits into it and a CRC that fits; the checks that
+ * matter are those before an index, a divisor, a loop's end, or a sum that is proven to fit only under bounds. All
+ * allow a little more than a run needs. */
 #include "base/fixed.h"
 #include "base/fmath.h"
 #include "sim/snapshot_parts.h"
@@ -56,7 +56,8 @@ static bool is_shorter(int64_t a, int64_t b, int64_t limit)
     return x <= most && y <= most && x * x + y * y <= most * most;
 }
 
-/* Only within its reach the fast arithmetic is known to fit. A free motion keeps its distance from n, or loses of it. */
+/* Only within its reach the fast arithmetic is known to fit. A free motion keeps its distance from n, or loses of it.
+ * */
 static bool is_within_reach(const struct normal_q27 *normal, const struct normal_q27_coeffs *coeffs)
 {
     const int64_t room = (int64_t)normal->reach - (int64_t)fixed_abs(normal->n) + REACH_ROUNDING;

@@ -19,8 +19,8 @@ void snapshot_walk_set(struct snapshot_walk *walk, struct params *params, struct
 /* All that has become of it. With a writer nothing of it is changed. */
 void snapshot_walk_run(struct snapshot_walk *walk, struct sim *sim, struct input_queue *waiting);
 
-/* Is a state with finite floats and true truth values one that may go on under its plan: nothing in it that leads outside an
- * array, divides by 0, overflows, or never ends? */
+/* Is a state with finite floats and true truth values one that may go on under its plan: nothing in it that leads
+ * outside an array, divides by 0, overflows, or never ends? */
 bool snapshot_is_sound(const struct sim *sim, const struct input_queue *waiting, const struct sim_plan *plan);
 
 #endif

@@ -1,5 +1,5 @@
-/* Studies: a map, borders, a share of squeal. Each asks for one set after the other and has it tried in a plant of its own, a
- * slice at a time; who asked is told of each result as it comes:
+/* Studies: a map, borders, a share of squeal. Each asks for one set after the other and has it tried in a plant of its
+ * own, a slice at a time; who asked is told of each result as it comes:
  *
  *   study_begin_...  ->  study_go_on ... STUDY_HAS_RESULT ... STUDY_HAS_RESULT ... STUDY_IS_DONE
  *
@@ -75,8 +75,8 @@ struct study {
     } its;
 };
 
-/* Each begins one, whatever was under way. What they ask for must be in the ranges of scan.h, margin.h, occurrence.h and
- * trial.h; margin's only is NULL for all that margin_covers(). [MAIN] */
+/* Each begins one, whatever was under way. What they ask for must be in the ranges of scan.h, margin.h, occurrence.h
+ * and trial.h; margin's only is NULL for all that margin_covers(). [MAIN] */
 void study_begin_scan(struct study *study, const struct scan *scan, const struct trial_span *span);
 void study_begin_margin(struct study *study, const struct params *base, const struct params_info *only, float factor,
                         const struct trial_span *span);
@@ -86,8 +86,8 @@ void study_begin_occurrence(struct study *study, const struct occurrence *occurr
 /* A slice. [MAIN] */
 enum study_news study_go_on(struct study *study);
 
-/* The share of loud trials among those that were tried, with Wilson's interval at 95 %. Of none it is not a number, from 0
- * to 1. [MAIN] */
+/* The share of loud trials among those that were tried, with Wilson's interval at 95 %. Of none it is not a number,
+ * from 0 to 1. [MAIN] */
 struct study_share {
     float share, low, high;
 };

@@ -1,7 +1,7 @@
 /* The disc's surface under the pad: what makes a brake force of N(t) act as N(t) (1 + texture). Two parts:
  *
- *   roughness  white noise, uniformly distributed, with the given rms, so never beyond sqrt(3) of it; one value holds for
- *              1/16 of a normal period, which is the longest model step, so every spp meets the same realisation
+ *   roughness  white noise, uniformly distributed, with the given rms, so never beyond sqrt(3) of it; one value holds
+ *              for 1/16 of a normal period, which is the longest model step, so every spp meets the same realisation
  *   run-out    a sine of the disc's angle, once a revolution, held for as long
  *
  * Textures are in Q30. With both ratios 0 there is none, and no bit of a trajectory knows of this file. */
@@ -39,8 +39,8 @@ static inline bool texture_begins(const struct texture *texture, uint64_t step)
     return ((uint32_t)step & ((1u << texture->hold_shift) - 1u)) == 0u;
 }
 
-/* Texture that begins with a step: the noise of its index, and the run-out at the middle of its time. angle is that of its
- * start, disc the speed at it in Q4.27. Pure: the random part depends on (seed, step) alone. [ISR] */
+/* Texture that begins with a step: the noise of its index, and the run-out at the middle of its time. angle is that of
+ * its start, disc the speed at it in Q4.27. Pure: the random part depends on (seed, step) alone. [ISR] */
 int32_t texture_value(const struct texture *texture, const struct texture_angle *angle, uint64_t step, int32_t disc);
 
 /* The disc turns by one step at this speed, forwards or backwards, without rounding. [ISR] */

@@ -21,7 +21,8 @@ static uint64_t periods_to_steps(const struct trial *trial, uint32_t periods)
     return (uint64_t)periods * trial->plan.scale.steps_per_period;
 }
 
-/* Step from which on load and speed stand still; what is periodic never does, and what takes for ever is not waited for. */
+/* Step from which on load and speed stand still; what is periodic never does, and what takes for ever is not waited
+ * for. */
 static uint64_t settled_step(const struct trial *trial, const struct params *params)
 {
     const uint64_t most = periods_to_steps(trial, TRIAL_PERIODS_MAX);
@@ -104,8 +105,8 @@ static bool decays(const struct detector_verdict *verdict)
            (!verdict->has_growth || verdict->growth_q16 < -verdict->growth_error_q16);
 }
 
-/* The steady motion that the load forces is far from touching the disc, or the disc stands: only then is decay the whole
- * story. */
+/* The steady motion that the load forces is far from touching the disc, or the disc stands: only then is decay the
+ * whole story. */
 static bool stays_off(const struct trial *trial)
 {
     const struct prediction *prediction = &trial->plan.prediction;
@@ -236,8 +237,8 @@ static float from_i64(int64_t value)
     return value < 0 ? -fmath_from_u64(0u - (uint64_t)value) : fmath_from_u64((uint64_t)value);
 }
 
-/* How much longer the error of a slope is where a residue resembles the one before: noise near a border wanders slowly. By
- * the ratio of Durbin and Watson, 2 (1 - r) where r is the correlation from one frame to the next. */
+/* How much longer the error of a slope is where a residue resembles the one before: noise near a border wanders slowly.
+ * By the ratio of Durbin and Watson, 2 (1 - r) where r is the correlation from one frame to the next. */
 static float wander(const struct trial_line *line, float slope, float rest)
 {
     const float frames = (float)(line->count - 1u);

@@ -1,11 +1,11 @@
-/* A trial: a set run from its own start in a plant of its own, a slice at a time, until one knows what becomes of it. It is
- * what main does for a map or a border; the plant in the interrupt knows nothing of it.
+/* A trial: a set run from its own start in a plant of its own, a slice at a time, until one knows what becomes of it.
+ * It is what main does for a map or a border; the plant in the interrupt knows nothing of it.
  *
  *   begin -> transient (cut short once the end is certain) -> window, measured whole -> done
  *
  * The transient is cut short in three cases only. The plant left its domain: there is no window then. It squeals in a
- * motion that repeats, found twice in a row after the profiles have come to rest. Or what is free in its motion decays, in
- * two frames in a row, and the closed form says that it must and that the motion left stays off the disc. A sine of
+ * motion that repeats, found twice in a row after the profiles have come to rest. Or what is free in its motion decays,
+ * in two frames in a row, and the closed form says that it must and that the motion left stays off the disc. A sine of
  * the load is never at rest.
  *
  * Who asks for a border or a share only wants to know on which side a set lies: with is_brief a trial is over,
@@ -37,8 +37,8 @@ struct trial_span {
 /* Why the window was opened, or not. */
 enum trial_end { TRIAL_RUNS, TRIAL_WAS_WHOLE, TRIAL_SQUEALED, TRIAL_DECAYED, TRIAL_DIVERGED, TRIAL_GREW };
 
-/* Growth of the free part of the motion while the pad slips on: a straight line through the logarithms of its amplitude,
- * one a frame. */
+/* Growth of the free part of the motion while the pad slips on: a straight line through the logarithms of its
+ * amplitude, one a frame. */
 struct trial_line {
     uint32_t count;
     int32_t first_log2_q16;
@@ -77,8 +77,8 @@ bool trial_go_on(struct trial *trial, uint32_t steps);
 /* Normal periods since its start. [MAIN] */
 float trial_periods(const struct trial *trial);
 
-/* Growth of the free motion in e-folds per normal period over the whole trial, and the error that noise leaves in it (three
- * standard deviations); false if too few frames showed any. [MAIN] */
+/* Growth of the free motion in e-folds per normal period over the whole trial, and the error that noise leaves in it
+ * (three standard deviations); false if too few frames showed any. [MAIN] */
 bool trial_growth(const struct trial *trial, float *growth, float *error);
 
 /* Does the set squeal, or will it: by the verdict, or by a growth beyond its error? Of a trial that is over. [MAIN] */

@@ -1,4 +1,5 @@
-/* Error against steps per period: ours, the naive method and a smoothed sign, in double, single precision and fixed point.
+/* Error against steps per period: ours, the naive method and a smoothed sign, in double, single precision and fixed
+ * point.
  *
  *   converge --out FOLDER     writes converge.csv and converge.gp there, and prints the table */
 #include <math.h>

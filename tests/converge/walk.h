@@ -1,5 +1,5 @@
-/* One case of the paper's model, walked over twenty normal periods by anything that can: where the pad is, 16 times a period. The
- * cases are Table 1 from rest but for what they name. */
+/* One case of the paper's model, walked over twenty normal periods by anything that can: where the pad is, 16 times a
+ * period. The cases are Table 1 from rest but for what they name. */
 #ifndef CONVERGE_WALK_H
 #define CONVERGE_WALK_H
 
@@ -26,8 +26,8 @@ enum walk_textbook { WALK_EVENT, WALK_NAIVE, WALK_TANH };
  * tanh(vr/(v0/100)) for it. steps_per_period is a multiple of 16. */
 void walk_textbook(const struct walk_case *which, enum walk_textbook method, long steps_per_period, struct walk *walk);
 
-/* The firmware's own plant. arith, normal and method are names of its choices, such as "q27", "exact", "event"; steps from 16
- * to 1024. False if it refuses the set. */
+/* The firmware's own plant. arith, normal and method are names of its choices, such as "q27", "exact", "event"; steps
+ * from 16 to 1024. False if it refuses the set. */
 bool walk_firmware(const struct walk_case *which, const char *arith, const char *normal, const char *method,
                    long steps_per_period, struct walk *walk);
 

@@ -1,9 +1,9 @@
 /* frames: random frames through the codec and a bad line, and whether one arrives that was not sent.
  *   frames [--frames n] [--ber p] [--drop p] [--double p] [--swap p] [--payload min-max] [--seed n] [--crc-bits k]
- * Rates are per bit for --ber, per byte for the others. --crc-bits below 32 spoils the check on purpose: frames are taken
- * whose CRC is right in its low k bits. Ends with 1 if a frame was accepted that differs from the one sent, if a frame
- * was lost that the line had not touched and that followed a delimiter, if bytes are not accounted for, or if nothing
- * arrived at all. */
+ * Rates are per bit for --ber, per byte for the others. --crc-bits below 32 spoils the check on purpose: frames are
+ * taken whose CRC is right in its low k bits. Ends with 1 if a frame was accepted that differs from the one sent, if a
+ * frame was lost that the line had not touched and that followed a delimiter, if bytes are not accounted for, or if
+ * nothing arrived at all. */
 #include <inttypes.h>
 #include <stdio.h>
 #include <stdlib.h>

@@ -4,7 +4,7 @@
  *   80 .. 8f             1 to 16 rounds
  *   90 T payload         a request of the T-th type, of its length, as a client would say it next; and a round
  *   91 T S S s s s s n payload   a frame of any type, sequence, step and length; and a round
- *   92 n patches         the run is fetched, gets up to 3 patches of a byte or a word each, a right CRC, and is put back
+ *   92 n patches         the run is fetched, gets up to 3 patches of a byte or a word, a right CRC, and is put back
  *   a0 .. af bytes       1 to 16 bytes as they are to the link
  *   b0 .. bf bytes       1 to 16 bytes as they are to the console
  *   c0 .. c7, c8 .. cf   1 to 8 bytes are lost on the console, on the link
@@ -14,8 +14,8 @@
  *   f8                   the next tick is late
  *   f9                   the next tick comes a period too late
  *
- * An input gets so many rounds and steps of the plant, and no more. Then both readers read on, a stop is said on both lines,
- * and all must come to rest. */
+ * An input gets so many rounds and steps of the plant, and no more. Then both readers read on, a stop is said on both
+ * lines, and all must come to rest. */
 #include "input.h"
 
 #include <string.h>
@@ -117,7 +117,8 @@ static void put_word(uint8_t *bytes, uint32_t word)
     bytes_put_u32(&writer, word);
 }
 
-/* A console whose waiting lines fill their place cannot stop a STEP: one that is obeyed gets a length that can be awaited. */
+/* A console whose waiting lines fill their place cannot stop a STEP: one that is obeyed gets a length that can be
+ * awaited. */
 static void shorten_step(uint8_t *payload)
 {
     struct bytes_reader reader = {.bytes = payload, .size = 4u};
@@ -186,8 +187,8 @@ static void say_restore(const uint8_t *image, uint16_t offset)
     }
 }
 
-/* Its pieces are fetched by the harness, not over the line: only the first request makes them. The rounds that they take on
- * their way back are given on top, for a price that lets an input do it once. */
+/* Its pieces are fetched by the harness, not over the line: only the first request makes them. The rounds that they
+ * take on their way back are given on top, for a price that lets an input do it once. */
 static void say_run(void)
 {
     static const uint8_t first[2] = {0u, 0u};

@@ -177,8 +177,8 @@ void watch_round(void)
     check_params(executive_params(firmware.executive));
 }
 
-/* Samples that were not dropped were sent, but for those that a second reset has overtaken: of these a stream that begins
- * anew takes its count along. */
+/* Samples that were not dropped were sent, but for those that a second reset has overtaken: of these a stream that
+ * begins anew takes its count along. */
 void watch_end(void)
 {
     const struct executive *executive = firmware.executive;

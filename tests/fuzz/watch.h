@@ -1,5 +1,5 @@
-/* What must hold whatever the input: each breach ends the program. Frames and lines are counted and checked here by code of
- * its own, not by the firmware's. */
+/* What must hold whatever the input: each breach ends the program. Frames and lines are counted and checked here by
+ * code of its own, not by the firmware's. */
 #ifndef FUZZ_WATCH_H
 #define FUZZ_WATCH_H
 

@@ -1,5 +1,5 @@
-/* A small generator of random numbers (splitmix64) that gives the same numbers on every machine: integers, and of floating
- * point only what IEEE 754 rounds in one way. */
+/* A small generator of random numbers (splitmix64) that gives the same numbers on every machine: integers, and of
+ * floating point only what IEEE 754 rounds in one way. */
 #ifndef MERIT_DICE_H
 #define MERIT_DICE_H
 

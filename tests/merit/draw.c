@@ -80,8 +80,8 @@ static void round_all(struct set *set)
 #undef OUTPUT
 }
 
-/* Half the cases are loaded at once from rest, a quarter start in the equilibrium of the normal direction, as exactly as
- * the table can say it, and a quarter ramp up. */
+/* Half the cases are loaded at once from rest, a quarter start in the equilibrium of the normal direction, as exactly
+ * as the table can say it, and a quarter ramp up. */
 static void draw_start(struct dice *dice, struct set *set)
 {
     switch (dice_choice(dice, 4)) {
@@ -99,8 +99,8 @@ static void draw_start(struct dice *dice, struct set *set)
     }
 }
 
-/* Long enough for the slowest of both directions, by their rates in permanent slip, after the load has come and the spring
- * has broken the first ride of the pad on the disc. */
+/* Long enough for the slowest of both directions, by their rates in permanent slip, after the load has come and the
+ * spring has broken the first ride of the pad on the disc. */
 static void choose_span(struct set *set)
 {
     const double load = set->ntype > 0.0 ? set->N1 : set->N0;

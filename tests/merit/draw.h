@@ -12,8 +12,8 @@ extern const char *const draw_kind_names[DRAW_KINDS];
 /* One case. It may be one that the firmware refuses. */
 struct set draw_set(struct dice *dice, enum draw_kind kind);
 
-/* Writes the table of so many cases to a file that is open. Returns how many sets the firmware refused; others were drawn
- * in their place. */
+/* Writes the table of so many cases to a file that is open. Returns how many sets the firmware refused; others were
+ * drawn in their place. */
 long draw_table(FILE *file, long count, uint64_t seed);
 
 #endif

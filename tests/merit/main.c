@@ -1,8 +1,8 @@
 /* merit: how good is the detector on cases that nobody has looked at?
  *   merit cases --count n --seed n --out cases.csv
  *   merit check --truth truth.csv --disagree out.csv --arith "f32 q27" --jobs n
- * The first draws the cases, the oracle works out their truth, the second runs the firmware's own code on them, prints the
- * table and writes down each row on which the two disagree. Exit code 1 if a figure is not what it must be. */
+ * The first draws the cases, the oracle works out their truth, the second runs the firmware's own code on them, prints
+ * the table and writes down each row on which the two disagree. Exit code 1 if a figure is not what it must be. */
 #include <stdlib.h>
 #include <string.h>
 

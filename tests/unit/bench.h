@@ -62,7 +62,8 @@ enum { BENCH_RESULTS_MAX = 128 };
 extern struct bench_frame bench_results[BENCH_RESULTS_MAX]; /* of studies, that came since bench_open() */
 extern size_t bench_result_count;
 
-/* Sends the frame and turns until something answers that is no sample or result, at most limit times. False if nothing did. */
+/* Sends the frame and turns until something answers that is no sample or result, at most limit times. False if nothing
+ * did. */
 bool bench_ask(const struct bench_frame *request, struct bench_frame *reply, unsigned limit);
 
 /* Offers bytes to the link and turns n times; true if a frame came that is no sample or result, the last in *reply. */

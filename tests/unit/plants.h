@@ -1,4 +1,5 @@
-/* What the tests of the plant share: a plant from assignments as a person would type them, and how to run it; the same for an executive. */
+/* What the tests of the plant share: a plant from assignments as a person would type them, and how to run it; the same
+ * for an executive. */
 #ifndef PLANTS_H
 #define PLANTS_H
 
@@ -34,8 +35,9 @@ float plants_x_m(const struct plant *plant);
 /* Largest |v| in the model's units over the next steps. */
 float plants_largest_v(struct plant *plant, uint32_t steps);
 
-/* Starts the plant without damping and slope, with Z = 3/2, N a quarter of N_max and further assignments, and holds twenty
- * periods of slip, in either arithmetic, against the closed form; the tolerance is a part of the largest swing. */
+/* Starts the plant without damping and slope, with Z = 3/2, N a quarter of N_max and further assignments, and holds
+ * twenty periods of slip, in either arithmetic, against the closed form; the tolerance is a part of the largest swing.
+ * */
 void plants_check_undamped(struct plant *plant, const char *assignments, float tolerance);
 
 /* An executive from assignments, the order taken but no step made. */

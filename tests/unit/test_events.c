@@ -70,7 +70,8 @@ static void check_crossing(void)
     tap_check(fmath_abs(plants_x_m(&plant) - 0.230829189f) > 1e-3f, "RK4 on the raw sign is not");
 }
 
-/* Without load the pad swings freely, v = V cos(2 t): here it overtakes the disc in the middle of one step and falls back. */
+/* Without load the pad swings freely, v = V cos(2 t): here it overtakes the disc in the middle of one step and falls
+ * back. */
 static void check_graze(void)
 {
     const float ratio = 0.997f; /* of the disc's speed to the peak's: above for 2 acos(0.997)/2 = 0.0774785 */

@@ -1,4 +1,5 @@
-/* A controller's demands: in which units, from which step, and what becomes of those that come too late, too many, too large. */
+/* A controller's demands: in which units, from which step, and what becomes of those that come too late, too many, too
+ * large. */
 #include "sim/input.h"
 
 #include "base/fmath.h"

@@ -1,5 +1,5 @@
-/* A run as bytes: it goes on with the same bits elsewhere, and what is forged does no harm. That no field is forgotten is for
- * tools/check_snapshot to say. */
+/* A run as bytes: it goes on with the same bits elsewhere, and what is forged does no harm. That no field is forgotten
+ * is for tools/check_snapshot to say. */
 #include "sim/snapshot.h"
 
 #include "base/bytes.h"
@@ -59,7 +59,8 @@ static enum error put_back(struct executive *executive)
     return error;
 }
 
-/* --- It goes on ----------------------------------------------------------------------------------------------------- */
+/* --- It goes on -----------------------------------------------------------------------------------------------------
+ * */
 
 static bool go_on_alike(uint32_t steps)
 {
@@ -158,7 +159,8 @@ static void check_room(void)
     tap_check(other.inputs_refused == 1u, "and a reset gives it back");
 }
 
-/* --- What is refused ------------------------------------------------------------------------------------------------ */
+/* --- What is refused ------------------------------------------------------------------------------------------------
+ * */
 
 static void sign(void)
 {

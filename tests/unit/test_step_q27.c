@@ -1,5 +1,5 @@
-/* The plant in integers: against closed forms and the golden solver, against its float twin, in a mirror, at both ends of
- * its range, and its fast path against the general one. */
+/* The plant in integers: against closed forms and the golden solver, against its float twin, in a mirror, at both ends
+ * of its range, and its fast path against the general one. */
 #include "model/step_q27.h"
 
 #include "base/fmath.h"
@@ -36,7 +36,8 @@ static float difference(uint32_t periods)
     return worst;
 }
 
-/* --- What it must reach --------------------------------------------------------------------------------------------- */
+/* --- What it must reach ---------------------------------------------------------------------------------------------
+ * */
 
 /* tests/golden: fig5_N5, which sticks and crosses; x after 20 periods from a solver of order 22. */
 static void check_golden(void)
@@ -96,7 +97,8 @@ static void check_rest(const char *assignments, bool is_lifted)
     tap_note_number("counts", (float)high - (float)low);
 }
 
-/* --- Against its twin ----------------------------------------------------------------------------------------------- */
+/* --- Against its twin -----------------------------------------------------------------------------------------------
+ * */
 
 static void agree(const char *assignments, float tolerance)
 {
@@ -158,7 +160,8 @@ static void check_paths(const char *assignments, float tolerance)
     tap_check(plant.sim.counters.events == other.sim.counters.events, "through the same events");
 }
 
-/* --- To the bit ------------------------------------------------------------------------------------------------------ */
+/* --- To the bit ------------------------------------------------------------------------------------------------------
+ * */
 
 static bool is_mirrored(const struct sim *a, const struct sim *b)
 {
@@ -233,7 +236,8 @@ static void check_substeps(void)
     tap_note_bits("hash", hash);
 }
 
-/* --- Ends of the range ------------------------------------------------------------------------------------------------ */
+/* --- Ends of the range
+ * ------------------------------------------------------------------------------------------------ */
 
 /* One step from anywhere in the range is that of single precision, or says that it saturated. */
 static void check_headroom(const char *assignments, float tolerance)

@@ -180,7 +180,8 @@ static uint32_t field(const char *answer, const char *key)
     return (uint32_t)value;
 }
 
-/* A line that takes nothing while the plant goes on: what the ring could not hold is counted, the rest arrives in order. */
+/* A line that takes nothing while the plant goes on: what the ring could not hold is counted, the rest arrives in
+ * order. */
 static void check_gap(void)
 {
     const uint32_t steps = 2000u;

@@ -75,7 +75,8 @@ static void check_ride(void)
     tap_check(trial.end == TRIAL_DECAYED && trial.sim.output.v == 0, "under a stopped disc sticking is an end");
 }
 
-/* At resonance the forced motion creeps up to the disc's speed while its transient decays: that is no promise of quiet. */
+/* At resonance the forced motion creeps up to the disc's speed while its transient decays: that is no promise of quiet.
+ * */
 static void check_resonance(void)
 {
     struct params params = plants_params("kt 0.5 k 0.5 c 0.0088 alpha 0 v0 33.9");
@@ -125,8 +126,8 @@ static void check_slices(void)
               "a trial makes the steps that the plant makes");
 }
 
-/* Growth of permanent slip, (N |alpha| - c)/2 sqrt(m ke) per unit of time: per normal period, from equilibrium. Noise and
- * run-out of the brake's disc blur it, but not its side. */
+/* Growth of permanent slip, (N |alpha| - c)/2 sqrt(m ke) per unit of time: per normal period, from equilibrium. Noise
+ * and run-out of the brake's disc blur it, but not its side. */
 static void check_growth(const char *arithmetic)
 {
     static const struct {

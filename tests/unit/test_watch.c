@@ -1,5 +1,5 @@
-/* A controller falls silent: when that counts as stale, when as too long, what becomes of the force and the verdict, and what
- * leads back; the same to the bit however the steps are cut. */
+/* A controller falls silent: when that counts as stale, when as too long, what becomes of the force and the verdict,
+ * and what leads back; the same to the bit however the steps are cut. */
 #include "sim/watch.h"
 
 #include "base/fmath.h"
@@ -278,7 +278,8 @@ static void check_verdict(void)
     tap_check(steps_to_verdict(2u * WINDOW) == full, "and so on");
 }
 
-/* --- The same bits ---------------------------------------------------------------------------------------------------- */
+/* --- The same bits
+ * ---------------------------------------------------------------------------------------------------- */
 
 struct trace {
     uint32_t hash;
@@ -364,7 +365,8 @@ static void check_ramp(float arith)
     tap_check(is_straight && steps == 700u, "a straight line down, that ends in its time");
 }
 
-/* --- Free run: the wall's time ---------------------------------------------------------------------------------------- */
+/* --- Free run: the wall's time
+ * ---------------------------------------------------------------------------------------- */
 
 static void tick_free(uint32_t count)
 {

@@ -1,8 +1,8 @@
 /* bench-link: how many turns of lockstep a second, beside what the line alone takes.
  *   bench-link --turns n --socket path -- firmware .. [-- echo ..]
- * The commands must listen at the path, one after the other; that of the firmware may take it from SQUEAL_LINK. The second one
- * is echo.c's image. All are asked in small lots in turn, so that what the machine does beside hits all alike. Ends with 1
- * and a word to stderr where an answer is missing or is none. */
+ * The commands must listen at the path, one after the other; that of the firmware may take it from SQUEAL_LINK. The
+ * second one is echo.c's image. All are asked in small lots in turn, so that what the machine does beside hits all
+ * alike. Ends with 1 and a word to stderr where an answer is missing or is none. */
 #include <inttypes.h>
 #include <stdio.h>
 #include <stdlib.h>

@@ -1,5 +1,6 @@
-/* Counts the instructions of the firmware's functions on the device, by the free-running clock under an emulator that takes
- * the same time for every instruction. What a count of the clock is worth is for the runner to say: tests/bench/target.py.
+/* Counts the instructions of the firmware's functions on the device, by the free-running clock under an emulator that
+ * takes the same time for every instruction. What a count of the clock is worth is for the runner to say:
+ * tests/bench/target.py.
  *
  * Lines, blanks between:
  *   clock HZ
@@ -35,7 +36,8 @@ struct tally {
 
 static struct tally tallies[PART_COUNT];
 
-/* --- Words --------------------------------------------------------------------------------------------------------- */
+/* --- Words ---------------------------------------------------------------------------------------------------------
+ * */
 
 static void write_text(const char *text)
 {
@@ -88,7 +90,8 @@ static void write_memory(const char *name, const char *arith, const char *functi
     write_text("\r\n");
 }
 
-/* --- Counting ------------------------------------------------------------------------------------------------------ */
+/* --- Counting ------------------------------------------------------------------------------------------------------
+ * */
 
 static void book(enum part part, uint32_t counts)
 {
@@ -128,7 +131,8 @@ static enum part part_of(const struct plant_output *output)
                                          : PART_SLIP;
 }
 
-/* --- Stack --------------------------------------------------------------------------------------------------------- */
+/* --- Stack ---------------------------------------------------------------------------------------------------------
+ * */
 
 extern uint8_t ld_stack_bottom[];
 
@@ -154,7 +158,8 @@ static uint32_t depth(uintptr_t top)
     return (uint32_t)(top - (uintptr_t)at);
 }
 
-/* --- Subjects ------------------------------------------------------------------------------------------------------ */
+/* --- Subjects ------------------------------------------------------------------------------------------------------
+ * */
 
 static void measure(const struct subject *subject)
 {
@@ -190,7 +195,8 @@ static void measure(const struct subject *subject)
     }
 }
 
-/* --- The interrupt as a whole -------------------------------------------------------------------------------------- */
+/* --- The interrupt as a whole --------------------------------------------------------------------------------------
+ * */
 
 /* Main does nothing but look at the clock: what is missing between two looks went to the interrupt. */
 static void watch(uint32_t ticks)

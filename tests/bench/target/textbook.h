@@ -1,5 +1,5 @@
-/* Eq. 20 and RK4 as one types them in from a textbook: arrays, a function pointer, physical units, the raw sign of vr. For
- * comparison only. textbook.c makes it in single and in double precision. */
+/* Eq. 20 and RK4 as one types them in from a textbook: arrays, a function pointer, physical units, the raw sign of vr.
+ * For comparison only. textbook.c makes it in single and in double precision. */
 #ifndef TEXTBOOK_H
 #define TEXTBOOK_H
 

@@ -5,8 +5,8 @@
  *     conversation_turn()        one STEP with this pressure and speed; READY again when it is answered, in state
  *     conversation_release()     the end: the brake is opened
  *
- * On silence the request is repeated, the same bytes: the plant makes no STEP twice. After too many of them, or where the
- * plant refuses, the brake is released as far as that can be said, and why stays in end and refusal. [MAIN] */
+ * On silence the request is repeated, the same bytes: the plant makes no STEP twice. After too many of them, or where
+ * the plant refuses, the brake is released as far as that can be said, and why stays in end and refusal. [MAIN] */
 #ifndef CONVERSATION_H
 #define CONVERSATION_H
 
@@ -31,8 +31,8 @@ enum conversation_end {
 };
 
 /* The control period, and how long silence is borne. Two and a half periods of the brake's 2 kHz squeal: the jumps of
- * pressure from turn to turn then make the pad ring in turn one way and the other, and cancel. In periods of half a millisecond they
- * would add up, and the controller itself would make the brake sing. */
+ * pressure from turn to turn then make the pad ring in turn one way and the other, and cancel. In periods of half a
+ * millisecond they would add up, and the controller itself would make the brake sing. */
 #define CONVERSATION_TURN_S 1.25e-3f
 
 enum {

@@ -1,5 +1,5 @@
-/* The control law: how hard to press so that the brake brakes and does not squeal. A pure function of what it was, what it
- * sees and its settings: no clock, no wire, nothing remembered elsewhere. One call a turn.
+/* The control law: how hard to press so that the brake brakes and does not squeal. A pure function of what it was, what
+ * it sees and its settings: no clock, no wire, nothing remembered elsewhere. One call a turn.
  *
  *               +--------+         squeal          +---------+
  *      +------->| BUILD  |------------------------>| RELEASE |<-------------------+
@@ -19,9 +19,9 @@
  * RELEASE   pressure falls to keep_ratio of what squealed, or by another step to lower_ratio of what did not calm down.
  * DITHER    pressure jumps about the low one until the pad has come to rest.
  *
- * A jump of pressure makes the pad ring at its own 2 kHz, and a ringing pad is what squeal grows from. A turn is two and a half
- * of these periods (conversation.h), so of a jump made in two equal halves, a turn apart, the second takes away what the
- * first set going. That is all that the mean of two turns does.
+ * A jump of pressure makes the pad ring at its own 2 kHz, and a ringing pad is what squeal grows from. A turn is two
+ * and a half of these periods (conversation.h), so of a jump made in two equal halves, a turn apart, the second takes
+ * away what the first set going. That is all that the mean of two turns does.
  *
  * Pressure never exceeds the demand; a demand of 0 releases at once and forgets what was learned. */
 #ifndef LAW_H

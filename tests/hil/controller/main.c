@@ -1,11 +1,12 @@
-/* A controller to start from: it stops a vehicle with the brake at the other end of its UART 1, and keeps it from squealing.
+/* A controller to start from: it stops a vehicle with the brake at the other end of its UART 1, and keeps it from
+ * squealing.
  *
  *     console (UART 0): orders in, journal out          link (UART 1): the plant
  *              \            main           /
  *               stop ---- law ---- conversation
  *
- * A turn: the plant's state gives the vehicle's new speed and the law's new pressure, and these are the next STEP. The plant
- * stands while the controller thinks, so nothing depends on how fast either of them is. */
+ * A turn: the plant's state gives the vehicle's new speed and the law's new pressure, and these are the next STEP. The
+ * plant stands while the controller thinks, so nothing depends on how fast either of them is. */
 #include "base/bytes.h"
 #include "base/decimal.h"
 #include "base/text.h"
@@ -47,7 +48,8 @@ void app_tick(void)
     word_write(&ticks, word_read(&ticks) + 1u);
 }
 
-/* --- Orders ----------------------------------------------------------------------------------------------------------- */
+/* --- Orders
+ * ----------------------------------------------------------------------------------------------------------- */
 
 static bool read_arithmetic(struct token word, float *arithmetic)
 {
@@ -81,7 +83,8 @@ static void obey(const char *order)
     hal_tick_start(CONVERSATION_TICK_HZ);
 }
 
-/* --- The stop --------------------------------------------------------------------------------------------------------- */
+/* --- The stop
+ * --------------------------------------------------------------------------------------------------------- */
 
 static void begin_drive(void)
 {
@@ -186,7 +189,8 @@ static bool poll(void)
     return false;
 }
 
-/* --- Lines and time --------------------------------------------------------------------------------------------------- */
+/* --- Lines and time
+ * --------------------------------------------------------------------------------------------------- */
 
 static void pump_console(void)
 {

@@ -1,6 +1,7 @@
-/* The manoeuvre: a driver presses, one wheel's share of a vehicle slows down by the brake's torque, and a score is kept.
+/* The manoeuvre: a driver presses, one wheel's share of a vehicle slows down by the brake's torque, and a score is
+ * kept.
  *
- *     vehicle speed' = -faces F R / (R_tyre mass)        F: the friction force that the plant reports, held over the turn
+ *     vehicle speed' = -faces F R / (R_tyre mass)     F: the friction force that the plant reports, held over the turn
  *
  * Nothing else slows it, the wheel does not slip, the road is level. */
 #ifndef STOP_H
@@ -51,8 +52,9 @@ bool stop_is_over(const struct stop_settings *settings, const struct stop *stop,
 float stop_kept_ratio(const struct stop *stop);
 float stop_squeal_ratio(const struct stop *stop);
 
-/* How far the pad swings about where friction holds it, m: from its place and speed at one instant, as if the swing were a
- * sine. Friction is taken for steady, which errs by some tenths of it during squeal and by next to nothing in quiet. */
+/* How far the pad swings about where friction holds it, m: from its place and speed at one instant, as if the swing
+ * were a sine. Friction is taken for steady, which errs by some tenths of it during squeal and by next to nothing in
+ * quiet. */
 float stop_amplitude_m(const struct brake *brake, const struct master_state *state);
 
 #endif

@@ -1,5 +1,5 @@
-/* record: a run from the initial state, its samples as CSV, the velocity as a sound, and a record with which it can be made
- * again. */
+/* record: a run from the initial state, its samples as CSV, the velocity as a sound, and a record with which it can be
+ * made again. */
 #include "squeal/commands/linked.h"
 
 #include "base/decimal.h"

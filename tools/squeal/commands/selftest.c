@@ -1,4 +1,5 @@
-/* selftest: does the device at the port do what PROTOCOL.md says, and is its brake the one that this tool was built with? */
+/* selftest: does the device at the port do what PROTOCOL.md says, and is its brake the one that this tool was built
+ * with? */
 #include "squeal/commands/linked.h"
 
 #include "base/random.h"

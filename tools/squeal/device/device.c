@@ -65,7 +65,8 @@ static bool send_out(struct device *device)
     return true;
 }
 
-/* Keeps the reply's payload, which the next byte would overwrite: whoever asked reads it when all that came is taken. */
+/* Keeps the reply's payload, which the next byte would overwrite: whoever asked reads it when all that came is taken.
+ * */
 static enum master_event bytes_take(struct device *device, const uint8_t *bytes, size_t size, struct frame *answer)
 {
     enum master_event outcome = MASTER_NOTHING;
@@ -121,7 +122,8 @@ static enum device_result fail_silent(struct device *device)
     return DEVICE_LOST;
 }
 
-/* Waits for the answer to the request that is on its way. Samples are signs of life: the limit counts from the last one. */
+/* Waits for the answer to the request that is on its way. Samples are signs of life: the limit counts from the last
+ * one. */
 static enum device_result await(struct device *device, struct frame *answer)
 {
     double asked_s = clock_now_s();

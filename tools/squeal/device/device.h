@@ -7,9 +7,9 @@
  *         puts(device_problem(device));
  *     }
  *
- * A question without an answer is asked again, about once a second, until the limit has passed; the link bears that. All
- * text that comes from the device is printable ASCII when it gets out of here. Numbers of rows are those of the device's own
- * tables, which a newer firmware may have more of than this program. */
+ * A question without an answer is asked again, about once a second, until the limit has passed; the link bears that.
+ * All text that comes from the device is printable ASCII when it gets out of here. Numbers of rows are those of the
+ * device's own tables, which a newer firmware may have more of than this program. */
 #ifndef SQUEAL_DEVICE_H
 #define SQUEAL_DEVICE_H
 
@@ -35,8 +35,8 @@ enum device_result {
 
 /* --- The connection ----------------------------------------------------------------------------------------------- */
 
-/* Opens the port and says HELLO, both within limit_s, which also holds for every question after it. NULL with the problem:
- * the port cannot be opened, nobody answers there, or what answers speaks another major version. */
+/* Opens the port and says HELLO, both within limit_s, which also holds for every question after it. NULL with the
+ * problem: the port cannot be opened, nobody answers there, or what answers speaks another major version. */
 struct device *device_open(const char *port, double limit_s, char problem[DEVICE_PROBLEM_MAX]);
 void device_close(struct device *device);
 
@@ -47,7 +47,8 @@ const struct master_refusal *device_refusal(const struct device *device);
 /* The name of an error's number; "unknown-error" of one that only a newer device knows. */
 const char *device_error_name(unsigned error);
 
-/* Has the port gone, or fallen silent? Where a function gives no result but a row, this tells what kind of problem it was. */
+/* Has the port gone, or fallen silent? Where a function gives no result but a row, this tells what kind of problem it
+ * was. */
 bool device_is_lost(const struct device *device);
 
 /* For poll() and its like: when its fd is readable, device_listen(device, 0.0) takes what came. */
@@ -93,11 +94,12 @@ enum device_result device_read_table(struct device *device, enum device_table ta
 size_t device_count(struct device *device, enum device_table table);
 const struct device_row *device_row(struct device *device, enum device_table table, size_t index);
 
-/* The number of the row with that symbol; -1 if there is none, which is then the problem, with names that are like it. */
+/* The number of the row with that symbol; -1 if there is none, which is then the problem, with names that are like it.
+ * */
 int device_find(struct device *device, enum device_table table, const char *symbol);
 
-/* Text to a value of a parameter and back: a name for a choice, else a number. Parsing gives false with the problem if it is
- * no such, or outside the row's range. A formatted float reads back as the same bits. */
+/* Text to a value of a parameter and back: a name for a choice, else a number. Parsing gives false with the problem if
+ * it is no such, or outside the row's range. A formatted float reads back as the same bits. */
 bool device_parse(struct device *device, size_t param, const char *text, float *value);
 enum { DEVICE_TEXT_MAX = 64 };
 void device_format(const struct device_row *row, float value, char out[DEVICE_TEXT_MAX]);
@@ -127,8 +129,8 @@ struct device_tables {
     const struct params_points *table[PARAMS_TABLES];
 };
 
-/* Puts all the values and tables into force or none. Without may_reset a change that needs a restart is refused. tables and
- * commit may be NULL. */
+/* Puts all the values and tables into force or none. Without may_reset a change that needs a restart is refused. tables
+ * and commit may be NULL. */
 enum device_result device_set(struct device *device, const struct device_value *values, size_t count,
                               const struct device_tables *tables, bool may_reset, struct device_commit *commit);
 
@@ -142,8 +144,8 @@ enum device_result device_run(struct device *device, uint64_t *step);
 enum device_result device_stop(struct device *device, uint64_t *step);
 enum device_result device_reset(struct device *device, uint64_t *step);
 
-/* Makes count steps from where the plant stands, with the demand held from here on; NULL: all as it was. The limit is that
- * of one reply. More than a request may carry are made by several, the demand with the first. */
+/* Makes count steps from where the plant stands, with the demand held from here on; NULL: all as it was. The limit is
+ * that of one reply. More than a request may carry are made by several, the demand with the first. */
 enum device_result device_step(struct device *device, uint64_t count, const struct input_demand *demand,
                                struct master_state *state);
 
@@ -180,8 +182,8 @@ struct device_verdict {
 /* What the device says of the motion; NaN where something makes no sense. */
 enum device_result device_verdict(struct device *device, struct device_verdict *verdict);
 
-/* The device's own checks, by rows of its table of self-tests: bit i of failures says that test i failed. It takes as long as
- * limit_s. */
+/* The device's own checks, by rows of its table of self-tests: bit i of failures says that test i failed. It takes as
+ * long as limit_s. */
 enum device_result device_selftest(struct device *device, double limit_s, unsigned *passed, unsigned *failed,
                                    uint32_t *failures);
 
@@ -209,7 +211,8 @@ struct device_stream {
 enum device_result device_stream(struct device *device, const int *signals, size_t count, uint32_t every,
                                  struct device_stream *reply);
 
-/* --- Studies: trials beside the plant, which goes on undisturbed --------------------------------------------------- */
+/* --- Studies: trials beside the plant, which goes on undisturbed ---------------------------------------------------
+ * */
 
 struct device_axis {
     int param;
@@ -263,8 +266,8 @@ struct device_study {
     void (*on_end)(void *context, const struct device_tally *tally);
 };
 
-/* Begin a study: a map over one axis or two; the borders of one parameter, or of all with -1. results: so many are to come, by
- * themselves, see device_listen(). */
+/* Begin a study: a map over one axis or two; the borders of one parameter, or of all with -1. results: so many are to
+ * come, by themselves, see device_listen(). */
 enum device_result device_scan(struct device *device, const struct device_axis *axes, size_t count,
                                const struct device_span *span, const struct device_study *study, uint32_t *results);
 enum device_result device_margin(struct device *device, int param, float within, const struct device_span *span,

@@ -36,7 +36,8 @@ static enum device_result read_row(struct device *device, enum device_table tabl
     return DEVICE_OK;
 }
 
-/* HELLO does not count the rows of a table that came later: its first one does, and where there is none the table is empty. */
+/* HELLO does not count the rows of a table that came later: its first one does, and where there is none the table is
+ * empty. */
 static enum device_result count_rows(struct device *device, enum device_table table)
 {
     struct device_row row;

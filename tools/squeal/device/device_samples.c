@@ -63,7 +63,8 @@ enum device_result device_stream(struct device *device, const int *signals, size
     for (size_t i = 0; i < count; i++) {
         bitmap |= UINT32_C(1) << signals[i];
     }
-    /* What streams, even for somebody before us, ends first: all its samples come before the reply, and none that comes later can be taken for one of the new. */
+    /* What streams, even for somebody before us, ends first: all its samples come before the reply, and none that comes
+     * later can be taken for one of the new. */
     result = result == DEVICE_OK ? ask_stream(device, 0, 0, stream) : result;
     if (result != DEVICE_OK || every == 0) {
         device->signal_count = result == DEVICE_OK ? 0 : device->signal_count;

@@ -35,8 +35,8 @@ static bool has_columns(const struct golden_plan *plan, const char *path)
     return true;
 }
 
-/* Where the results go: into the file of that name, or, if it is no CSV file but a folder, into a file there that is called
- * like the table. A folder that does not exist is made. */
+/* Where the results go: into the file of that name, or, if it is no CSV file but a folder, into a file there that is
+ * called like the table. A folder that does not exist is made. */
 static const char *out_path(const char *out, const char *cases, char path[PATH_SIZE])
 {
     const char *slash = strrchr(cases, '/');
@@ -70,8 +70,8 @@ static void results_write(const struct golden_plan *plan, const struct golden_re
     (void)fputc('\n', file);
 }
 
-/* The file is opened before the first case is run: hours of work are not lost to a wrong path. The closing line says that
- * it is written, too. */
+/* The file is opened before the first case is run: hours of work are not lost to a wrong path. The closing line says
+ * that it is written, too. */
 static int plan_run(const struct golden_plan *plan, const char *path)
 {
     char problem[CSV_PROBLEM_MAX] = "out of memory";

@@ -1,5 +1,5 @@
-/* Between device and picture: what is seen goes into the picture, what a hand wants goes to the device. Every function that
- * asks the device says DEVICE_LOST if it is gone; a refusal becomes the picture's message. */
+/* Between device and picture: what is seen goes into the picture, what a hand wants goes to the device. Every function
+ * that asks the device says DEVICE_LOST if it is gone; a refusal becomes the picture's message. */
 #ifndef SQUEAL_FEED_H
 #define SQUEAL_FEED_H
 
@@ -26,14 +26,14 @@ struct feed {
     double message_s; /* when the message came */
 };
 
-/* Reads the tables, begins to stream. preset: to be loaded and run; NULL: if the device stands at step 0, the first brake
- * there is, unless as_is. */
+/* Reads the tables, begins to stream. preset: to be loaded and run; NULL: if the device stands at step 0, the first
+ * brake there is, unless as_is. */
 enum device_result feed_open(struct feed *feed, struct device *device, struct picture *picture, const char *preset,
                              bool is_as_is);
 void feed_close(struct feed *feed);
 
-/* Looks at something of what does not come by itself; once a frame. One question at a time: a slow device keeps no frame
- * waiting for long. */
+/* Looks at something of what does not come by itself; once a frame. One question at a time: a slow device keeps no
+ * frame waiting for long. */
 enum device_result feed_look(struct feed *feed);
 
 enum device_result feed_run_or_stop(struct feed *feed);

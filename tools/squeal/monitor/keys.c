@@ -1,5 +1,5 @@
-/* A sequence is ESC [ with parameters and a last letter, or ESC O and a letter; letters and numbers are those of xterm, the
- * Linux console and what descends from them. */
+/* A sequence is ESC [ with parameters and a last letter, or ESC O and a letter; letters and numbers are those of xterm,
+ * the Linux console and what descends from them. */
 #include "squeal/monitor/keys.h"
 
 #include <string.h>

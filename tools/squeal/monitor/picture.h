@@ -89,7 +89,8 @@ void picture_forget(struct picture *picture);
 /* Level of an rms velocity. */
 double picture_level_db(double velocity_m_per_s);
 
-/* A kind of motion in words: enum detector_class, and after how many it repeats. Empty for one that is not known here. */
+/* A kind of motion in words: enum detector_class, and after how many it repeats. Empty for one that is not known here.
+ * */
 void picture_motion(char *out, size_t size, uint8_t motion, uint8_t period);
 
 /* "quiet" and its like; capitals for large letters. */
@@ -97,8 +98,8 @@ const char *picture_propensity(uint8_t propensity);
 const char *picture_headline(const struct picture *picture);
 enum tint picture_tint(uint8_t propensity);
 
-/* A number in three digits and the prefix that suits its unit: "8.15 um"; a round one as short as it is: "20 um"; "-" for
- * what is no number. */
+/* A number in three digits and the prefix that suits its unit: "8.15 um"; a round one as short as it is: "20 um"; "-"
+ * for what is no number. */
 void picture_quantity(char *out, size_t size, double value, const char *unit);
 void picture_round(char *out, size_t size, double value, const char *unit);
 

@@ -1,5 +1,5 @@
-/* Cells, and the shortest way to tell a terminal about those that changed. Cursor, colours and UTF-8 are all that it must
- * know: ECMA-48 as every terminal of today has it. */
+/* Cells, and the shortest way to tell a terminal about those that changed. Cursor, colours and UTF-8 are all that it
+ * must know: ECMA-48 as every terminal of today has it. */
 #include "squeal/monitor/screen.h"
 
 #include <string.h>

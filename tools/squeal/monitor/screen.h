@@ -1,5 +1,5 @@
-/* A screen of cells: what is drawn is compared with what the terminal shows, and only the differences are sent. A frame is
- * cleared, drawn and shown; a frame that is like the one before costs no byte. */
+/* A screen of cells: what is drawn is compared with what the terminal shows, and only the differences are sent. A frame
+ * is cleared, drawn and shown; a frame that is like the one before costs no byte. */
 #ifndef SQUEAL_SCREEN_H
 #define SQUEAL_SCREEN_H
 
@@ -45,7 +45,8 @@ struct screen {
     struct screen_cell shown[SCREEN_ROWS_MAX][SCREEN_COLS_MAX];
 };
 
-/* Blank, of this size (larger ones are cut to the largest), and unknown what the terminal shows: the next frame is sent whole. */
+/* Blank, of this size (larger ones are cut to the largest), and unknown what the terminal shows: the next frame is sent
+ * whole. */
 void screen_open(struct screen *screen, int rows, int cols, struct screen_style style);
 
 /* Would screen_open() make it of this size? */

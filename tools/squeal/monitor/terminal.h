@@ -1,5 +1,6 @@
-/* The terminal in the hands of a program that draws on all of it: keys one by one, the alternate screen, no cursor. However
- * the program ends, short of SIGKILL, the terminal is as it was. One terminal a process: standard input and output. */
+/* The terminal in the hands of a program that draws on all of it: keys one by one, the alternate screen, no cursor.
+ * However the program ends, short of SIGKILL, the terminal is as it was. One terminal a process: standard input and
+ * output. */
 #ifndef SQUEAL_TERMINAL_H
 #define SQUEAL_TERMINAL_H
 
@@ -13,8 +14,8 @@ bool terminal_can_draw(void);
 /* What it can show, by TERM, COLORTERM, NO_COLOR and the locale's variables. */
 struct screen_style terminal_style(void);
 
-/* Takes it; INT, TERM, HUP and QUIT give it back before they take their course, that of the handlers there were. False with
- * errno. */
+/* Takes it; INT, TERM, HUP and QUIT give it back before they take their course, that of the handlers there were. False
+ * with errno. */
 bool terminal_take(void);
 
 /* Gives it back; does no harm if it is not taken. */

@@ -1,5 +1,5 @@
-/* Complex eigenvalues of steady sliding beside the device: growth over the brake force, frequency over the contact stiffness, of the
- * preset brake. */
+/* Complex eigenvalues of steady sliding beside the device: growth over the brake force, frequency over the contact
+ * stiffness, of the preset brake. */
 #include "squeal/paper/lab_model.h"
 #include "squeal/paper/orbit.h"
 #include "squeal/paper/table.h"

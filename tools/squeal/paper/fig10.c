@@ -1,5 +1,5 @@
-/* Figs. 10a and 10b: strobes of the pad over the friction coefficient and over the disc's speed, swept up and down without a
- * reset; where the period doubles, and which brake force the paper must have used. */
+/* Figs. 10a and 10b: strobes of the pad over the friction coefficient and over the disc's speed, swept up and down
+ * without a reset; where the period doubles, and which brake force the paper must have used. */
 #include "squeal/paper/sweep.h"
 
 #include "sim/detector.h"
@@ -69,7 +69,8 @@ static void set(struct lab *lab, const struct diagram *diagram, double force_n)
     lab_table1(lab, "%s N0 %.9g", diagram->set, force_n);
 }
 
-/* --- The diagram ---------------------------------------------------------------------------------------------------- */
+/* --- The diagram ----------------------------------------------------------------------------------------------------
+ * */
 
 static const char commands[] =
     "set title headline offset 0,1.3\nset xlabel axis\nset ylabel 'x once a normal period  [m]'\nset xrange [from:to]\n"
@@ -116,7 +117,8 @@ static unsigned draw(struct lab *lab, const struct diagram *diagram, double forc
     return sweep.unsettled;
 }
 
-/* --- Where the period doubles ----------------------------------------------------------------------------------------- */
+/* --- Where the period doubles
+ * ----------------------------------------------------------------------------------------- */
 
 static void compare_ends(struct lab *lab, const struct diagram *diagram, double ends[2])
 {
@@ -208,7 +210,8 @@ static void run(struct lab *lab, const struct diagram *diagram)
     judge(lab, diagram, force_n, ends, unsettled);
 }
 
-/* --- One diagram ------------------------------------------------------------------------------------------------------- */
+/* --- One diagram
+ * ------------------------------------------------------------------------------------------------------- */
 
 /* mu_s and v0 act by v0/mu_s alone: strobes over mu_s are those over v0 at the same ratio, in proportion. */
 static double ratio_error(struct lab *lab)

@@ -21,7 +21,8 @@ enum { CURVE_POINTS = 441, FEWEST_PERIODS = 24, MOST_PERIODS = 96, TEXT_SIZE = 6
 static const double places[] = {0.3,  0.36, 0.4,   0.43, 0.445, 0.45, 0.46, 0.465, 0.47, 0.48, 0.49, 0.5, 0.51,
                                 0.52, 0.53, 0.535, 0.55, 0.56,  0.58, 0.6,  0.7,   0.85, 0.95, 1.0,  1.1, 1.2};
 
-/* Friction is 0 at the disc's speed, so that the load moves no pad that stands still, and all that moves is what one put in. */
+/* Friction is 0 at the disc's speed, so that the load moves no pad that stands still, and all that moves is what one
+ * put in. */
 static void set(struct lab *lab, double z)
 {
     const double slope = SHARE * DAMPING;

@@ -94,11 +94,12 @@ void experiment_fluctuation(struct lab *lab)
         tell(lab, &table, depths[i], &loud[i], &count);
     }
     draw(lab, &table);
-    lab_claim(lab, "fluctuation",
-              loud[DEPTHS - 1] == count ? PAPER_HOLDS
-              : loud[DEPTHS - 1] > 0    ? PAPER_IN_PART
-                                        : PAPER_REFUTED,
-              "fluctuation-size",
-              "a fluctuation of %g %% makes it squeal at %u of %u frequencies from 0.05 fn to 2.5 fn, one of %g %% at %u",
-              100.0 * depths[0], loud[0], count, 100.0 * depths[DEPTHS - 1], loud[DEPTHS - 1]);
+    lab_claim(
+        lab, "fluctuation",
+        loud[DEPTHS - 1] == count ? PAPER_HOLDS
+        : loud[DEPTHS - 1] > 0    ? PAPER_IN_PART
+                                  : PAPER_REFUTED,
+        "fluctuation-size",
+        "a fluctuation of %g %% makes it squeal at %u of %u frequencies from 0.05 fn to 2.5 fn, one of %g %% at %u",
+        100.0 * depths[0], loud[0], count, 100.0 * depths[DEPTHS - 1], loud[DEPTHS - 1]);
 }

@@ -6,8 +6,8 @@
  *     const struct lab_motion motion = lab_measure(lab, 400, &track);
  *     lab_compare(lab, "N = 5 N", "peak to peak", motion.xpp_m, "m", 2.07612, 0.004);
  *
- * Nothing here returns a failure: one ends the experiment, and its record says why. Only that the plant leaves its domain
- * is no failure; it is told where it matters. All periods are those of the normal direction, Tn. */
+ * Nothing here returns a failure: one ends the experiment, and its record says why. Only that the plant leaves its
+ * domain is no failure; it is told where it matters. All periods are those of the normal direction, Tn. */
 #ifndef SQUEAL_LAB_H
 #define SQUEAL_LAB_H
 
@@ -92,15 +92,16 @@ struct lab_motion {
     unsigned period;           /* the multiplicity; 0 where it has none */
 };
 
-/* Measures over so many periods, 32 or more and a multiple of 8, from samples of every step and the device's verdicts. track,
- * if not NULL, takes the samples: x, xd, mode. */
+/* Measures over so many periods, 32 or more and a multiple of 8, from samples of every step and the device's verdicts.
+ * track, if not NULL, takes the samples: x, xd, mode. */
 struct lab_motion lab_measure(struct lab *lab, unsigned periods, struct lab_track *track);
 
-/* Trials on the device along "N0 1 10 19" or such, two axes at most, as scan on the console has them: the points in order,
- * the first axis fastest. count may be NULL. */
+/* Trials on the device along "N0 1 10 19" or such, two axes at most, as scan on the console has them: the points in
+ * order, the first axis fastest. count may be NULL. */
 const struct device_point *lab_scan(struct lab *lab, const char *axes, const struct device_span *span, size_t *count);
 
-/* --- What was found ------------------------------------------------------------------------------------------------- */
+/* --- What was found -------------------------------------------------------------------------------------------------
+ * */
 
 /* The reference solution's cell for a case of the golden table; NaN where it has no number. */
 double lab_reference(struct lab *lab, const char *name, const char *column);
@@ -111,8 +112,8 @@ FILE *lab_csv_open(struct lab *lab, const char *name, const char *header);
 void lab_csv_close(struct lab *lab, FILE *file, const char *name);
 void lab_csv_tracks(struct lab *lab, const char *name, const struct lab_track *tracks, size_t count);
 
-/* A picture, NAME.svg and NAME.png: write data blocks and variables for gnuplot into what is opened, then end it with the
- * commands that draw them. Text that goes into variables: figure_plain(). */
+/* A picture, NAME.svg and NAME.png: write data blocks and variables for gnuplot into what is opened, then end it with
+ * the commands that draw them. Text that goes into variables: figure_plain(). */
 FILE *lab_figure_open(struct lab *lab);
 void lab_figure_block(FILE *script, const char *block, const struct lab_track *track, size_t across, size_t up);
 void lab_figure_close(struct lab *lab, FILE *script, const char *name, const char *caption, const char *commands);
@@ -120,8 +121,8 @@ void lab_figure_close(struct lab *lab, FILE *script, const char *name, const cha
 /* A paragraph. */
 void lab_note(struct lab *lab, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
-/* What was measured of a subject, beside the picture before it: alone, or against a reference with an absolute tolerance, both
- * NaN being equal; words must be the same. */
+/* What was measured of a subject, beside the picture before it: alone, or against a reference with an absolute
+ * tolerance, both NaN being equal; words must be the same. */
 void lab_number(struct lab *lab, const char *subject, const char *quantity, double value, const char *unit);
 void lab_compare(struct lab *lab, const char *subject, const char *quantity, double value, const char *unit,
                  double reference, double tolerance);

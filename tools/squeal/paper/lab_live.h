@@ -1,4 +1,5 @@
-/* More of what an experiment may do with its device: a change while it runs, a trial of the set in force, a border of squeal. */
+/* More of what an experiment may do with its device: a change while it runs, a trial of the set in force, a border of
+ * squeal. */
 #ifndef SQUEAL_LAB_LIVE_H
 #define SQUEAL_LAB_LIVE_H
 

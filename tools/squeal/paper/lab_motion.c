@@ -123,8 +123,8 @@ static void widen(double value, double *low, double *high)
     *high = value > *high ? value : *high;
 }
 
-/* Where x turns between two samples, by the cubic through both and their velocities: its velocity is the parabola through
- * theirs and the mean one. */
+/* Where x turns between two samples, by the cubic through both and their velocities: its velocity is the parabola
+ * through theirs and the mean one. */
 static double turning_point(double x0, double v0, double x1, double v1, double step)
 {
     const double mean = (x1 - x0) / step;

@@ -79,8 +79,8 @@ static double alternating(const struct lab_track *track, size_t i)
     return (i % 2 == 0 ? 1.0 : -1.0) * (track->value[0][i] - track->value[0][i - 1]);
 }
 
-/* Slope of the straight line through the logarithms of the alternating part since it became small for good. Rounding leaves
- * some of it, larger the nearer to the doubling; that is taken off. */
+/* Slope of the straight line through the logarithms of the alternating part since it became small for good. Rounding
+ * leaves some of it, larger the nearer to the doubling; that is taken off. */
 double orbit_log_multiplier(struct lab *lab, unsigned most)
 {
     struct fit fit = {0};
@@ -106,7 +106,8 @@ double orbit_log_multiplier(struct lab *lab, unsigned most)
     return fit.count < FITTED_LEAST ? (double)NAN : fit_slope(&fit);
 }
 
-/* --- Two plants ----------------------------------------------------------------------------------------------------- */
+/* --- Two plants -----------------------------------------------------------------------------------------------------
+ * */
 
 double orbit_parting(struct lab *lab, double offset_m, unsigned from, unsigned to, double *distance_m)
 {
@@ -130,7 +131,8 @@ double orbit_parting(struct lab *lab, double offset_m, unsigned from, unsigned t
     return fit_slope(&fit);
 }
 
-/* --- Doubling ------------------------------------------------------------------------------------------------------- */
+/* --- Doubling -------------------------------------------------------------------------------------------------------
+ * */
 
 static bool is_doubled_at(struct lab *lab, const char *symbol, double value)
 {

@@ -1,5 +1,5 @@
-/* The paper, done again on a device: experiments that run it, draw figures, compare numbers and judge claims. Data flow one
- * way: an experiment writes into its record and into files; the page is made of the records. */
+/* The paper, done again on a device: experiments that run it, draw figures, compare numbers and judge claims. Data flow
+ * one way: an experiment writes into its record and into files; the page is made of the records. */
 #ifndef SQUEAL_PAPER_H
 #define SQUEAL_PAPER_H
 
@@ -47,8 +47,9 @@ size_t paper_claim_find(const char *id);
 /* holds, in part, refuted, not judged. */
 const char *paper_verdict_name(enum paper_verdict verdict);
 
-/* Runs the wanted experiments, so many at a time; the record of each goes into the file of its place, which stays NULL where
- * none is wanted. Whatever happens in an experiment is in its record. False, told on standard error: no files, no processes. */
+/* Runs the wanted experiments, so many at a time; the record of each goes into the file of its place, which stays NULL
+ * where none is wanted. Whatever happens in an experiment is in its record. False, told on standard error: no files, no
+ * processes. */
 bool paper_run(const struct paper_options *options, FILE *records[]);
 
 #endif

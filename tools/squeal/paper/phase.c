@@ -19,7 +19,8 @@ static const struct panel panels[] = {
 #undef PANEL
 };
 
-/* Shares of the range, except of the frequency and the stick share. A motion without a period depends on where one looks. */
+/* Shares of the range, except of the frequency and the stick share. A motion without a period depends on where one
+ * looks. */
 #define LIMIT_XPP 2e-3
 #define LIMIT_V 5e-3
 #define LIMIT_F 1e-4
@@ -73,8 +74,8 @@ static void compare(struct lab *lab, const struct panel *panel, const struct lab
                     f_up);
 }
 
-/* The orbit between samples as well: x by the cubic through both ends and their velocities, and its derivative; not where
- * the pad begins or ends to stick in between, since its velocity has a kink there. */
+/* The orbit between samples as well: x by the cubic through both ends and their velocities, and its derivative; not
+ * where the pad begins or ends to stick in between, since its velocity has a kink there. */
 static void write_orbit(FILE *script, const struct lab_track *track)
 {
     const double *x = track->value[COLUMN_X], *v = track->value[COLUMN_V];

@@ -1,5 +1,5 @@
-/* Figs. 8 and 9 in between: the size of the motion over beta + gamma, at several speeds of the disc; where the pad sticks; and
- * whether the harmonics of the normal oscillation show. */
+/* Figs. 8 and 9 in between: the size of the motion over beta + gamma, at several speeds of the disc; where the pad
+ * sticks; and whether the harmonics of the normal oscillation show. */
 #include "squeal/paper/lab_live.h"
 #include "squeal/paper/lab_map.h"
 #include "squeal/paper/table.h"

@@ -11,8 +11,8 @@ enum { SETTLE_PERIODS = 3000, WINDOW_PERIODS = 40, WINDOW_TORUS = 1600, POINTS =
 #define CHANGE 0.02
 #define PRODUCT 0.1 /* N |alpha| of the walk along which it does not change */
 
-/* Exponents by the reference solver with the same change, and how near one may expect to come: without a period the size depends on where one
- * looks. */
+/* Exponents by the reference solver with the same change, and how near one may expect to come: without a period the
+ * size depends on where one looks. */
 static const struct {
     double force_n, slope, by_force, by_slope, tolerance;
 } points[POINTS] = {{1.0, 0.002, 1.00006, -0.00665, 1e-3},

@@ -1,4 +1,5 @@
-/* Are stiffnesses of a newton a metre as good as real ones? A soft brake with the dimensionless groups of the realistic one. */
+/* Are stiffnesses of a newton a metre as good as real ones? A soft brake with the dimensionless groups of the realistic
+ * one. */
 #include "squeal/paper/lab_live.h"
 #include "squeal/paper/table.h"
 
@@ -16,8 +17,8 @@ enum { REAL, SOFT };
 
 static const double forces_n[FORCES] = {1000.0, 1900.0, 2100.0, 3000.0, 5000.0};
 
-/* Impedances are scaled by it, and times by its inverse; friction, its slope and speeds stay. Run-out is left out in both: its
- * pace is that of the disc, which would take a radius of a kilometre. */
+/* Impedances are scaled by it, and times by its inverse; friction, its slope and speeds stay. Run-out is left out in
+ * both: its pace is that of the disc, which would take a radius of a kilometre. */
 static void set(struct lab *lab, int brake, double force_n)
 {
     lab_preset(lab, "brake");

@@ -1,5 +1,5 @@
-/* Between the panels of Fig. 6: the size of the motion over the slope of friction, where it loses its period, and whether what
- * comes then is chaos. */
+/* Between the panels of Fig. 6: the size of the motion over the slope of friction, where it loses its period, and
+ * whether what comes then is chaos. */
 #include "squeal/paper/orbit.h"
 #include "squeal/paper/table.h"
 
@@ -72,7 +72,8 @@ static void judge_size(struct lab *lab, const struct table *table, size_t below)
               table_at(table, 0, COLUMN_SLOPE), table_at(table, below - 1, COLUMN_SLOPE), late, EARLY_PERIODS, early);
 }
 
-/* --- Chaos? ----------------------------------------------------------------------------------------------------------- */
+/* --- Chaos?
+ * ----------------------------------------------------------------------------------------------------------- */
 
 /* Returns the growth of their distance in e-folds a period. */
 static double part(struct lab *lab, double slope, struct table *table)

@@ -1,4 +1,5 @@
-/* Is it N |alpha| < c that keeps the brake quiet? A map of trials, and the border of permanent slip over beta + gamma. */
+/* Is it N |alpha| < c that keeps the brake quiet? A map of trials, and the border of permanent slip over beta + gamma.
+ * */
 #include "squeal/paper/lab_live.h"
 #include "squeal/paper/lab_map.h"
 #include "squeal/paper/lab_model.h"
@@ -23,7 +24,8 @@ enum { COLUMN_SUM, COLUMN_DEVICE, COLUMN_MONODROMY };
 /* Borders of N |alpha|/c by the reference solver. */
 static const double references[][2] = {{2.0, 1.0}, {TONGUE, 0.6670}};
 
-/* --- The map ---------------------------------------------------------------------------------------------------------- */
+/* --- The map
+ * ---------------------------------------------------------------------------------------------------------- */
 
 struct counts {
     unsigned below, below_loud, beyond, beyond_quiet, right;
@@ -84,7 +86,8 @@ static struct counts map_make(struct lab *lab)
     return counts;
 }
 
-/* --- Permanent slip ----------------------------------------------------------------------------------------------------- */
+/* --- Permanent slip
+ * ----------------------------------------------------------------------------------------------------- */
 
 /* The device's own search for the slope beyond which slip grows, as N |alpha|/c. */
 static double border_measure(struct lab *lab, double sum)

@@ -1,4 +1,5 @@
-/* Between the panels of Fig. 7: the size of the motion over the stiffness ke = kt = k, and below which one it runs away. */
+/* Between the panels of Fig. 7: the size of the motion over the stiffness ke = kt = k, and below which one it runs
+ * away. */
 #include "squeal/paper/lab_live.h"
 #include "squeal/paper/table.h"
 

@@ -1,5 +1,5 @@
-/* Pictures drawn by gnuplot, which is asked for nothing but lines: every number comes from the caller. Each picture is made
- * twice, as SVG and as PNG:
+/* Pictures drawn by gnuplot, which is asked for nothing but lines: every number comes from the caller. Each picture is
+ * made twice, as SVG and as PNG:
  *
  *     FILE *script = figure_open();
  *     write the data
@@ -54,8 +54,8 @@ void figure_start(FILE *script, const char *path, bool is_svg);
 /* Ends gnuplot. Are both formats there? */
 bool figure_close(FILE *script, const char *path);
 
-/* The text as gnuplot may print it, from wherever it comes: the marks of its enhanced text, and what could end the quotes
- * around it, become blanks; in single quotes it must be a label. */
+/* The text as gnuplot may print it, from wherever it comes: the marks of its enhanced text, and what could end the
+ * quotes around it, become blanks; in single quotes it must be a label. */
 const char *figure_plain(const char *text, char *out, size_t size);
 const char *figure_label(const char *text, char *out, size_t size);
 

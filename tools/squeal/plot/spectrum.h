@@ -14,8 +14,8 @@ struct spectrum {
     double resolution_hz; /* two tones that are closer are one */
 };
 
-/* Takes the last samples, a power of two of them, less their mean and under Hann's window. False if there are too few, or no
- * memory; free(spectrum->amplitude) takes it back. */
+/* Takes the last samples, a power of two of them, less their mean and under Hann's window. False if there are too few,
+ * or no memory; free(spectrum->amplitude) takes it back. */
 bool spectrum_make(struct spectrum *spectrum, const double *samples, size_t count, double rate_hz);
 
 /* The highest line but those next to frequency 0. */

@@ -1,5 +1,5 @@
-/* A map of trials: a tile for each, over two parameters. Squeal runs from light to dark with its size, so that it is read in
- * print too; what still grows carries a dot, for it is not yet at its size; the predicted border is a line. */
+/* A map of trials: a tile for each, over two parameters. Squeal runs from light to dark with its size, so that it is
+ * read in print too; what still grows carries a dot, for it is not yet at its size; the predicted border is a line. */
 #ifndef SQUEAL_TILES_H
 #define SQUEAL_TILES_H
 

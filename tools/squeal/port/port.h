@@ -28,18 +28,20 @@ struct port {
     char problem[PORT_PROBLEM_MAX];
 };
 
-/* Opens the port of that name. children_guard() must have been called. False with the problem: nothing is left open, but
- * port_close() does no harm. */
+/* Opens the port of that name. children_guard() must have been called. False with the problem: nothing is left open,
+ * but port_close() does no harm. */
 bool port_open(struct port *port, const char *name);
 
 /* Ends what was started, and reaps it. The problem stays. */
 void port_close(struct port *port);
 
-/* Moves what can be moved now: bytes read or taken, 0 if that is nothing, -1 with the problem if the other end is gone. */
+/* Moves what can be moved now: bytes read or taken, 0 if that is nothing, -1 with the problem if the other end is gone.
+ * */
 ssize_t port_read(struct port *port, void *bytes, size_t size);
 ssize_t port_write(struct port *port, const void *bytes, size_t size);
 
-/* Waits until there is something to read, or room to write if that is wanted; at most limit_s. False if there is neither. */
+/* Waits until there is something to read, or room to write if that is wanted; at most limit_s. False if there is
+ * neither. */
 bool port_wait(const struct port *port, bool wants_room, double limit_s);
 
 /* What a port's name may be, one line each, for a help text. */

@@ -46,7 +46,8 @@ static int read_cell(const struct csv *csv, size_t row, int column, float *value
     return decimal_parse_f32(text, strlen(text), value) ? 2 : -1;
 }
 
-/* Of the two columns for the same thing at most one may be filled. The kind in the order of enum input_load and input_speed. */
+/* Of the two columns for the same thing at most one may be filled. The kind in the order of enum input_load and
+ * input_speed. */
 static int read_pair(const struct csv *csv, size_t row, const char *first, const char *second, float *value)
 {
     float other = 0.0f;

@@ -1,5 +1,5 @@
-/* A run that can be made again: a set from its initial state, what a controller asked for and when, so many steps; and what
- * came of it. The hash of all states tells whether it is the same run. */
+/* A run that can be made again: a set from its initial state, what a controller asked for and when, so many steps; and
+ * what came of it. The hash of all states tells whether it is the same run. */
 #ifndef SQUEAL_RECORDING_H
 #define SQUEAL_RECORDING_H
 
@@ -29,8 +29,8 @@ void recording_free(struct recording *recording);
 /* Adds one; false out of memory. Those of a later step come later. */
 bool recording_add_input(struct recording *recording, const struct input_demand *demand);
 
-/* Reads a table of inputs: column step, and one or more of N[N], p[Pa], v0[m/s], vehicle[m/s]; an empty cell leaves as it was,
- * the word profile gives back to the profile. */
+/* Reads a table of inputs: column step, and one or more of N[N], p[Pa], v0[m/s], vehicle[m/s]; an empty cell leaves as
+ * it was, the word profile gives back to the profile. */
 bool recording_read_inputs(struct recording *recording, const char *path, char problem[CSV_PROBLEM_MAX]);
 
 /* Reads the set in force. */
@@ -39,7 +39,8 @@ enum device_result recording_read_set(struct recording *recording, struct device
 /* Puts the set into force and goes back to step 0. */
 enum device_result recording_load(const struct recording *recording, struct device *device);
 
-/* Makes the steps from step 0, with a bar of progress. The first Ctrl-C ends it after a moment, and that is then the run. */
+/* Makes the steps from step 0, with a bar of progress. The first Ctrl-C ends it after a moment, and that is then the
+ * run. */
 enum device_result recording_play(struct recording *recording, struct device *device);
 
 /* What the samples of a run went into. */

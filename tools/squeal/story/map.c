@@ -10,8 +10,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* The border |alpha| N = c of the preset crosses this rectangle from its top to its right side. With MAP_SIDE points along
- * an axis they are 250 N and 0.006 s/m apart, and none lies on the border itself, where nothing ever settles. */
+/* The border |alpha| N = c of the preset crosses this rectangle from its top to its right side. With MAP_SIDE points
+ * along an axis they are 250 N and 0.006 s/m apart, and none lies on the border itself, where nothing ever settles. */
 const struct map_plan map_plan = {
     .preset = "brake",
     .axes = {{"N1", "N", 650.0, 5400.0}, {"alpha", "s/m", -0.12, -0.006}},

@@ -7,8 +7,8 @@
 
 #include <string.h>
 
-/* As a number where it is one. A word of hexadecimal digits only looks like a number now and then, so what is called a hash or
- * a build stays a string. */
+/* As a number where it is one. A word of hexadecimal digits only looks like a number now and then, so what is called a
+ * hash or a build stays a string. */
 static void value_write(FILE *file, const char *key, const char *text, size_t length)
 {
     const bool is_name = strstr(key, "hash") == key || strstr(key, "build") == key || strstr(key, "version") == key;

@@ -105,8 +105,8 @@ static void pictures_draw(struct story *story)
     plot_map(story);
 }
 
-/* Steps from one sample to the next, by act. The line is what a run waits for, so no act is sampled finer than its picture
- * needs: 8 to 32 points a normal period. The fourth act is heard, at 46 kHz. */
+/* Steps from one sample to the next, by act. The line is what a run waits for, so no act is sampled finer than its
+ * picture needs: 8 to 32 points a normal period. The fourth act is heard, at 46 kHz. */
 static const double every[RECORD_ACTS] = {4.0, 2.0, 8.0, 4.0, 4.0};
 
 /* Reads "1,3,5" into the acts to play. */

@@ -1,5 +1,5 @@
-/* The words of a command line behind the subcommand: options of its rows in subcommands.def, --name value or --name=value,
- * operands between them, and behind -- the command line of a firmware. */
+/* The words of a command line behind the subcommand: options of its rows in subcommands.def, --name value or
+ * --name=value, operands between them, and behind -- the command line of a firmware. */
 #ifndef SQUEAL_ARGUMENTS_H
 #define SQUEAL_ARGUMENTS_H
 
@@ -20,8 +20,8 @@ struct arguments {
     const char *options[ARGUMENTS_OPTIONS_MAX]; /* by row of the subcommand: the value, "" of a flag, NULL: not given */
 };
 
-/* Sorts argv[0..argc), which is reordered. False: the mistake has been printed, and the caller returns EXIT_USAGE, as it does
- * wherever one of the functions below says false. */
+/* Sorts argv[0..argc), which is reordered. False: the mistake has been printed, and the caller returns EXIT_USAGE, as
+ * it does wherever one of the functions below says false. */
 bool arguments_read(struct arguments *arguments, const struct subcommand *subcommand, int argc, char **argv);
 
 /* An option's value, NULL if it was not given; whether a flag was given. The name must be one of the subcommand's. */

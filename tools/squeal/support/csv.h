@@ -1,5 +1,5 @@
-/* Tables as comma-separated text with a header line. Nothing is quoted: the cells are numbers and plain names. Lines that begin
- * with # say something about the table and are skipped. */
+/* Tables as comma-separated text with a header line. Nothing is quoted: the cells are numbers and plain names. Lines
+ * that begin with # say something about the table and are skipped. */
 #ifndef SQUEAL_CSV_H
 #define SQUEAL_CSV_H
 

@@ -1,5 +1,5 @@
-/* JSON: what the tool writes, and enough of reading to get it back. A value is a pointer to its first character inside a
- * text that json_read() has found whole; the values inside it are reached from there. */
+/* JSON: what the tool writes, and enough of reading to get it back. A value is a pointer to its first character inside
+ * a text that json_read() has found whole; the values inside it are reached from there. */
 #ifndef SQUEAL_JSON_H
 #define SQUEAL_JSON_H
 
@@ -26,7 +26,8 @@ const char *json_member(const char *object, const char *name);
 const char *json_element(const char *array, size_t index);
 size_t json_count(const char *value);
 
-/* A string's characters or a number's digits, cut to size; false, with an empty out, for anything else, and for NULL. */
+/* A string's characters or a number's digits, cut to size; false, with an empty out, for anything else, and for NULL.
+ * */
 bool json_text(const char *value, char *out, size_t size);
 
 #endif

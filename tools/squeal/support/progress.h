@@ -1,5 +1,5 @@
-/* How far a long task has come: a bar that is rewritten in place where someone watches, else a line for every tenth. The
- * bar goes to standard error, so that what is kept of standard output stays free of it. */
+/* How far a long task has come: a bar that is rewritten in place where someone watches, else a line for every tenth.
+ * The bar goes to standard error, so that what is kept of standard output stays free of it. */
 #ifndef SQUEAL_PROGRESS_H
 #define SQUEAL_PROGRESS_H
 
