@@ -90,7 +90,7 @@ class Firmware:
     def hear_banner(self):
         """Waits for the firmware to speak: an emulated receiver may drop what comes before it is switched on."""
         until = time.monotonic() + self.limit_s
-        while not any(line.startswith("squeal ") for line in self.lines):
+        while not any(re.search(r"^squeal ", line, re.MULTILINE) for line in self.lines):  # an emulator's line may stand before
             if time.monotonic() > until:
                 raise Silence("no banner")
             self._pump(until)
