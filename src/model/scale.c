@@ -87,30 +87,56 @@ static struct params_problem check_lines(const struct params *params, const stru
 }
 
 /* Does what the set can reach lie inside the units? */
-/* What the profiles reach beyond N0 and v0 comes of several parameters: the reserve is named then. */
-static struct params_problem check_reach(const struct params *params, const struct scale *scale)
+/* Does a profile with this choice end with its second value? The choices of force and speed have the same names. */
+static bool has_end(float profile)
 {
-    const float load_n = scale_load_peak_n(params), load_max_n = scale->load_n / scale_peak_factor(params);
-    const float speed_m_per_s = scale_speed_peak_m_per_s(params);
+    return (int)profile == LOAD_STEP || (int)profile == LOAD_RAMP || (int)profile == LOAD_PULSES;
+}
 
-    if (load_n > scale->load_n) {
-        return params->load_n > load_max_n ? params_blame(ERROR_OUT_OF_SCALE, "N0", 0.0f, load_max_n)
-                                           : params_blame(ERROR_OUT_OF_SCALE, "N_max", load_n, 1e10f);
+static struct params_problem check_load_reach(const struct params *params, const struct scale *scale)
+{
+    const float reach_n = scale_load_peak_n(params);
+    const float limit_n = scale->load_n / scale_peak_factor(params);
+
+    if (!(reach_n > scale->load_n)) {
+        return no_problem;
     }
-    if (speed_m_per_s > scale->speed_m_per_s) {
-        return fmath_abs(params->speed_m_per_s) > scale->speed_m_per_s
-                   ? params_blame(ERROR_OUT_OF_SCALE, "v0", -scale->speed_m_per_s, scale->speed_m_per_s)
-                   : params_blame(ERROR_OUT_OF_SCALE, "v_max", speed_m_per_s, 1e4f);
+    if (params->load_n > limit_n) {
+        return params_blame(ERROR_OUT_OF_SCALE, "N0", 0.0f, limit_n);
     }
-    return no_problem;
+    if (has_end(params->load_profile) && params->load_end_n > limit_n) {
+        return params_blame(ERROR_OUT_OF_SCALE, "N1", 0.0f, limit_n);
+    }
+    /* It comes of several parameters: the reserve is named. */
+    return params_blame(ERROR_OUT_OF_SCALE, "N_max", reach_n, 1e10f);
+}
+
+static struct params_problem check_speed_reach(const struct params *params, const struct scale *scale)
+{
+    const float reach_m_per_s = scale_speed_peak_m_per_s(params);
+    const float limit_m_per_s = scale->speed_m_per_s;
+
+    if (!(reach_m_per_s > limit_m_per_s)) {
+        return no_problem;
+    }
+    if (fmath_abs(params->speed_m_per_s) > limit_m_per_s) {
+        return params_blame(ERROR_OUT_OF_SCALE, "v0", -limit_m_per_s, limit_m_per_s);
+    }
+    if (has_end(params->speed_profile) && fmath_abs(params->speed_end_m_per_s) > limit_m_per_s) {
+        return params_blame(ERROR_OUT_OF_SCALE, "v1", -limit_m_per_s, limit_m_per_s);
+    }
+    return params_blame(ERROR_OUT_OF_SCALE, "v_max", reach_m_per_s, 1e4f);
 }
 
 static struct params_problem check_fit(const struct params *params, const struct scale *scale)
 {
     const float stiffness_max = SCALE_STIFFNESS_MAX / (float)(1u << scale->length_shift);
 
-    const struct params_problem problem = check_reach(params, scale);
+    struct params_problem problem = check_load_reach(params, scale);
 
+    if (problem.error == ERROR_OK) {
+        problem = check_speed_reach(params, scale);
+    }
     if (problem.error != ERROR_OK) {
         return problem;
     }

@@ -140,7 +140,8 @@ static void check_refusals(void)
     tap_check(refuses("N0 5 N_max 4", NULL, ERROR_OUT_OF_SCALE, "N0") && serves("N0 5 N_max 5"),
               "a load beyond the given limit");
     tap_check(refuses("N0 4.1", &latched, ERROR_OUT_OF_SCALE, "N0") &&
-                  refuses("load step N1 4.1", &latched, ERROR_OUT_OF_SCALE, "N_max") &&
+                  refuses("load step N1 4.1", &latched, ERROR_OUT_OF_SCALE, "N1") &&
+                  refuses("load sine N0 3 N1 1.1", &latched, ERROR_OUT_OF_SCALE, "N_max") &&
                   refuses("N0 4", &latched, ERROR_OK, NULL),
               "a load beyond the latched one");
     tap_check(refuses("v0 5 v_max 4", NULL, ERROR_OUT_OF_SCALE, "v0") &&
