@@ -193,7 +193,7 @@ $(ORACLE): $(wildcard tests/oracle/*.[ch] tests/oracle/*.def) Makefile | setup
 	$(Q)$(CC) -std=c99 -O2 -ffp-contract=off -Wall -Wextra -D_POSIX_C_SOURCE=200809L -o $@ $(filter %.c,$^) -lm
 
 # What make command prints, a line for each of these boards.
-commands_of = $$(for board in $(1); do $(MAKE) -s --no-print-directory BOARD=$$board command; done)
+commands_of = $$(for board in $(1); do MAKEFLAGS= $(MAKE) -s --no-print-directory BOARD=$$board command; done)
 
 # --- Use ------------------------------------------------------------------------------------------------------------
 ROOT       ?=
