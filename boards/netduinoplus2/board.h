@@ -1,5 +1,5 @@
-/* Netduino Plus 2: STM32F405RG, crystal of 25 MHz. Addresses and lines: RM0090 sections 2.3 and 12.2, DS8626 table 9.
- * */
+/* Netduino Plus 2: STM32F405RG, crystal of 25 MHz. Addresses and lines: RM0090 sections 2.3 and 12.2, DS8626 table
+ * 9. */
 #ifndef NETDUINOPLUS2_BOARD_H
 #define NETDUINOPLUS2_BOARD_H
 

@@ -71,8 +71,8 @@ static void give_to_usart(uint32_t base, unsigned pin)
 
 bool clocks_are_real(void) { return (RCC_CR & CR_HSI_ON) != 0u; }
 
-/* USART1 on PB6, PB7 (SCL and SDA of the header: its other pins carry USB and the LED), USART2 on PA2, PA3 (D3 and D2).
- * */
+/* USART1 on PB6, PB7 (SCL and SDA of the header: its other pins carry USB and the LED), USART2 on PA2, PA3 (D3 and
+ * D2). */
 void clocks_open_pins(void)
 {
     RCC_AHB1ENR |= AHB1_GPIOA_GPIOB;

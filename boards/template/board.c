@@ -1,5 +1,5 @@
-/* A board to fill in: each #error stands for what is missing, and goes when it is there. hal/HAL.md says what to mind.
- * */
+/* A board to fill in: each #error stands for what is missing, and goes when it is there. hal/HAL.md says what to
+ * mind. */
 #include "board.h"
 
 #include "cortex_m/startup.h"
@@ -10,8 +10,7 @@
 #error "vectors: an entry for each interrupt line: app_tick at the timer's, fault_entry at unused ones"
 static const startup_vector vectors[] STARTUP_BOARD_VECTORS = {fault_entry};
 
-/* --- The board -----------------------------------------------------------------------------------------------------
- * */
+/* --- The board ---------------------------------------------------------------------------------------------------- */
 
 #error "hal_board_init: clocks with bounded waits, pins, both UARTs, tick stopped, clock running, interrupts on"
 void hal_board_init(void) {}
@@ -45,8 +44,7 @@ void hal_flag_set(bool is_squealing) { (void)is_squealing; }
 #error "hal_idle: sleep until an interrupt, unless something waits; beside a tick that runs on silicon alone"
 void hal_idle(void) {}
 
-/* --- The tick: hal/cortex_m/systick.c has all but the two of the clock, hal/cmsdk_timer.c all of it ----------------
- * */
+/* --- The tick: hal/cortex_m/systick.c has all but the two of the clock, hal/cmsdk_timer.c all of it --------------- */
 
 #error "hal_tick_start: a periodic interrupt, the first a whole period from now"
 void hal_tick_start(uint32_t rate_hz) { (void)rate_hz; }
@@ -72,8 +70,7 @@ uint32_t hal_clock_now(void) { return 0u; }
 #error "hal_clock_hz: its rate"
 uint32_t hal_clock_hz(void) { return 0u; }
 
-/* --- The UARTs: hal/cmsdk_uart.c and hal/stm32_usart.c have all of it ----------------------------------------------
- * */
+/* --- The UARTs: hal/cmsdk_uart.c and hal/stm32_usart.c have all of it --------------------------------------------- */
 
 #error "hal_uart_baud: as set; 0 for a link that has no UART"
 uint32_t hal_uart_baud(enum hal_uart port) { return port; }

@@ -1,5 +1,5 @@
-/* Every exception that nobody expects ends here, on a stack of its own, so that an overflown stack can still be told.
- * */
+/* Every exception that nobody expects ends here, on a stack of its own, so that an overflown stack can still be
+ * told. */
 #include <stdbool.h>
 #include <stdint.h>
 
@@ -49,8 +49,8 @@ static uint32_t exception_number(void)
     return number & 0x1FFu;
 }
 
-/* The frame is looked at only where it lies inside the stack: a read outside would fault again, and lock the core up.
- * */
+/* The frame is looked at only where it lies inside the stack: a read outside would fault again, and lock the core
+ * up. */
 static uint32_t stacked_pc(const uint32_t *frame)
 {
     const uintptr_t at = (uintptr_t)frame;

@@ -1,6 +1,6 @@
 /* The processor's own timer as the tick: implements hal_tick.h but for its clock, for chips whose other timers are poor
- * or not modelled. It has 24 bits; slower ticks are every n-th of its interrupts. The board gives the clock beside it.
- * */
+ * or not modelled. It has 24 bits; slower ticks are every n-th of its interrupts. The board gives the clock beside
+ * it. */
 #ifndef CORTEX_M_SYSTICK_H
 #define CORTEX_M_SYSTICK_H
 

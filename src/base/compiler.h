@@ -17,8 +17,8 @@
 #define BASE_NOINLINE __attribute__((noinline))
 #define BASE_LIKELY(cond) __builtin_expect(!!(cond), 1)
 #define BASE_UNLIKELY(cond) __builtin_expect(!!(cond), 0)
-/* Takes what the compiler knows of a word from it. Without it gcc multiplies the upper word of a sum as 64 bits again.
- * */
+/* Takes what the compiler knows of a word from it. Without it gcc multiplies the upper word of a sum as 64 bits
+ * again. */
 #define BASE_FORGET(word) __asm__("" : "+r"(word))
 /* One instruction each: the product of two words, and a product added to a sum of two words. Left to itself gcc keeps
  * such sums in pairs of neighbouring registers, of which there are too few for the step, and moves them about. */

@@ -21,8 +21,8 @@ static inline int32_t fixed_floor_word(int32_t value, unsigned shift) { return v
 /* value / 2 to nearest, halves up, in 32 bits; value < INT32_MAX. */
 static inline int32_t fixed_half_up(int32_t value) { return (value + 1) >> 1; }
 
-/* value / 2^shift to nearest, halves up; shift 1 ... 62. The cheaper rounding, for numbers that have no mirror image.
- * */
+/* value / 2^shift to nearest, halves up; shift 1 ... 62. The cheaper rounding, for numbers that have no mirror
+ * image. */
 static inline int64_t fixed_round_up(int64_t value, unsigned shift)
 {
     return fixed_floor(value + ((int64_t)1 << (shift - 1u)), shift);

@@ -22,8 +22,8 @@ int32_t fmath_sine_turns_q30(uint32_t turns);
  * rounded to float; a power of two gives its exponent exactly. */
 float fmath_log2(float value);
 
-/* 2^value, error below 2e-7 of it; a whole number gives its power exactly. Beyond -126 ... 127 it is that of the limit.
- * */
+/* 2^value, error below 2e-7 of it; a whole number gives its power exactly. Beyond -126 ... 127 it is that of the
+ * limit. */
 float fmath_exp2(float value);
 
 /* 1 - e^-value for value >= 0, error below 3e-7 of it: a small value keeps its digits. */
@@ -65,8 +65,8 @@ static inline float fmath_add_kept(float value, float change, float *rest)
     return sum;
 }
 
-/* A 64-bit count as a float, error below one unit in the last place. The compiler's own conversion goes through double.
- * */
+/* A 64-bit count as a float, error below one unit in the last place. The compiler's own conversion goes through
+ * double. */
 static inline float fmath_from_u64(uint64_t count)
 {
     return (float)(uint32_t)(count >> 32) * 4294967296.0f + (float)(uint32_t)count;

@@ -76,8 +76,7 @@ void event_f32_set_speed(struct step_f32 *s, const struct step_f32_coeffs *c, fl
     }
 }
 
-/* --- Slip ----------------------------------------------------------------------------------------------------------
- * */
+/* --- Slip --------------------------------------------------------------------------------------------------------- */
 
 /* The factors of the way from here to a place; the whole step has them ready. */
 static const struct slip_f32_factors *take_part(const struct work *work, float place, struct slip_f32_factors *part)
@@ -186,8 +185,7 @@ static void slip_piece(struct work *work, const struct slip_f32_end *known)
     s->mode = regime_at_rest(s, work->c, force_of(work, work->stretch.y), 0.0f);
 }
 
-/* --- Stick ---------------------------------------------------------------------------------------------------------
- * */
+/* --- Stick -------------------------------------------------------------------------------------------------------- */
 
 static float carried(const struct work *work, float place)
 {
@@ -238,8 +236,7 @@ static void stick_piece(struct work *work)
     s->mode = side;
 }
 
-/* --- Contact -------------------------------------------------------------------------------------------------------
- * */
+/* --- Contact ------------------------------------------------------------------------------------------------------ */
 
 /* Where on a stretch that starts here the spring lets go or takes hold (contact lift), or NOT_HERE. */
 static float find_contact_change(const struct work *work, const struct normal_f32_piece *piece)
@@ -296,8 +293,7 @@ static void change_contact(struct work *work)
     }
 }
 
-/* --- The step -------------------------------------------------------------------------------------------------------
- * */
+/* --- The step ----------------------------------------------------------------------------------------------------- */
 
 void event_f32_step(struct step_f32 *s, const struct step_f32_coeffs *c, struct event_f32_progress *progress,
                     const struct event_f32_attempt *attempt)

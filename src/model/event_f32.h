@@ -23,8 +23,8 @@ struct event_f32_attempt {
 void event_f32_step(struct step_f32 *s, const struct step_f32_coeffs *c, struct event_f32_progress *progress,
                     const struct event_f32_attempt *attempt);
 
-/* The disc has a new speed. A sticking pad follows if friction can also accelerate it; a slipping one keeps its speed.
- * */
+/* The disc has a new speed. A sticking pad follows if friction can also accelerate it; a slipping one keeps its
+ * speed. */
 void event_f32_set_speed(struct step_f32 *s, const struct step_f32_coeffs *c, float speed);
 
 #endif

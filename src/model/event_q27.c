@@ -288,8 +288,7 @@ static void stick_piece(struct work *work)
     event_q27_enter(s, side);
 }
 
-/* --- Contact --------------------------------------------------------------------------------------------------------
- * */
+/* --- Contact ------------------------------------------------------------------------------------------------------ */
 
 /* Where on a stretch that starts here the spring lets go or takes hold (contact lift), or NOT_HERE. */
 static int32_t find_contact_change(const struct work *work, const struct normal_q27_piece *piece)
@@ -349,8 +348,7 @@ static void change_contact(struct work *work)
     }
 }
 
-/* --- The step -------------------------------------------------------------------------------------------------------
- * */
+/* --- The step ----------------------------------------------------------------------------------------------------- */
 
 void event_q27_step(struct step_q27 *s, const struct step_q27_coeffs *c, struct event_q27_progress *progress,
                     const struct event_q27_attempt *attempt)

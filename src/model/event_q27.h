@@ -30,8 +30,8 @@ BASE_INLINE void event_q27_enter(struct step_q27 *s, int8_t mode)
     s->rest = (struct slip_q27_rest){SUM_Q27_NO_REST, SUM_Q27_NO_REST};
 }
 
-/* The disc has a new speed. A sticking pad follows if friction can also accelerate it; a slipping one keeps its speed.
- * */
+/* The disc has a new speed. A sticking pad follows if friction can also accelerate it; a slipping one keeps its
+ * speed. */
 void event_q27_set_speed(struct step_q27 *s, const struct step_q27_coeffs *c, int32_t speed);
 
 /* h times the force that would hold the pad on the disc, Q55: C v0 + K x. Exact, and so are the decisions on it. */

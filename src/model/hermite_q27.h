@@ -27,8 +27,8 @@ int32_t hermite_q27_root_after_start(const struct hermite_q27 *f);
 /* Place of the minimum inside (0, 1), for slope0 < 0 < slope1. */
 int32_t hermite_q27_minimum(const struct hermite_q27 *f);
 
-/* sum + factor t, rounded down. The upper word of a product lacks two bits of the result, which the search can spare.
- * */
+/* sum + factor t, rounded down. The upper word of a product lacks two bits of the result, which the search can
+ * spare. */
 static inline int32_t hermite_q27_term(int32_t sum, int32_t factor, int32_t t)
 {
     return sum + (int32_t)fixed_floor((int64_t)factor * t, 32u) * 4;

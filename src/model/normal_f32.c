@@ -31,8 +31,8 @@ static void taylor(float damping, float spring, float n, float duration, float y
 }
 
 /* With U the answer to a unit force from rest and S = U' that to a unit velocity, the map of (y, w) is
- * [1 - U, S; -S, 1 - U - Cn S]. The identity is taken off so that a coefficient's rounding costs only part of a step.
- * */
+ * [1 - U, S; -S, 1 - U - Cn S]. The identity is taken off so that a coefficient's rounding costs only part of a
+ * step. */
 static struct normal_f32_map make_map(float damping, float duration)
 {
     float u;
@@ -54,8 +54,8 @@ void normal_f32_configure(struct normal_f32_coeffs *coeffs, const struct params 
     coeffs->half = make_map(scale->normal_damping, 0.5f * scale->step);
 }
 
-/* Printed, the contact pulls where y < 0; the other modes know no pull, and neither does the rounding of a touch at 0.
- * */
+/* Printed, the contact pulls where y < 0; the other modes know no pull, and neither does the rounding of a touch at
+ * 0. */
 static float least_force(const struct normal_f32 *normal, const struct normal_f32_coeffs *coeffs)
 {
     return coeffs->contact == CONTACT_BILATERAL && !normal->is_steady_from_rest ? -1e30f : 0.0f;

@@ -110,8 +110,8 @@ void normal_q27_configure(struct normal_q27_coeffs *coeffs, const struct params 
     }
 }
 
-/* What only a change of load or contact can move. Free motion around n never exceeds the amplitude that it began with.
- * */
+/* What only a change of load or contact can move. Free motion around n never exceeds the amplitude that it began
+ * with. */
 static void note_change(struct normal_q27 *normal, uint8_t contact)
 {
     const int64_t reach = (int64_t)fixed_abs(normal->n) + (int64_t)fixed_abs(normal->w) +

@@ -106,8 +106,8 @@ float params_table_end_s(const struct params_points *table);
  * blame; or the time, with t1 or tv1. [MAIN] */
 struct params_problem params_check_point(enum params_table_index index, float end_s, const struct params_point *point);
 
-/* Checks every field against its range, and every point; a choice must be a whole number. NaN lies in no range. [MAIN]
- * */
+/* Checks every field against its range, and every point; a choice must be a whole number. NaN lies in no range.
+ * [MAIN] */
 struct params_problem params_check(const struct params *params);
 
 /* Do two sets differ in a parameter that needs a restart? Tables never do. Returns the first, or NULL. [MAIN] */

@@ -63,8 +63,8 @@ struct params_problem scale_derive(const struct params *params, const struct sca
 /* Steps per normal period of a set, 16 ... 1024. [ANY] */
 uint32_t scale_steps_per_period(const struct params *params);
 
-/* Largest brake force and disc speed that the set reaches, N and m/s; the force with its roughness and run-out. [MAIN]
- * */
+/* Largest brake force and disc speed that the set reaches, N and m/s; the force with its roughness and run-out.
+ * [MAIN] */
 float scale_load_peak_n(const struct params *params);
 float scale_speed_peak_m_per_s(const struct params *params);
 

@@ -1,8 +1,8 @@
 /* The law of friction, one RK4 piece of slip, and what a piece is judged by: what step_f32.c, event_f32.c and
  * naive_f32.c share, and nobody else.
  *
- * Time is counted in steps, so the factors carry h or the part of it that a piece takes, and an "increment" is h x''.
- * */
+ * Time is counted in steps, so the factors carry h or the part of it that a piece takes, and an "increment" is h
+ * x''. */
 #ifndef MODEL_SLIP_F32_H
 #define MODEL_SLIP_F32_H
 

@@ -218,8 +218,7 @@ BASE_INLINE void slip_q27_go_fine(const struct slip_q27_factors *f, const struct
     end->first = a1;
 }
 
-/* --- Parts of a step ------------------------------------------------------------------------------------------------
- * */
+/* --- Parts of a step ---------------------------------------------------------------------------------------------- */
 
 /* The factors of a part of the step, a fraction in Q30. Those of the floor are left alone where there is none. */
 void slip_q27_take_part(const struct slip_q27_factors *whole, int32_t fraction, bool has_floor, bool is_wide,

@@ -86,8 +86,7 @@ static BASE_NOINLINE void advance_in_pieces(struct step_f32 *s, const struct ste
     output->is_gap_held = is_gap_held;
 }
 
-/* --- The usual step: whole, without an event ------------------------------------------------------------------------
- * */
+/* --- The usual step: whole, without an event ---------------------------------------------------------------------- */
 
 /* The step was tried as a whole, and for a slip up to end, and may hold an event. */
 static BASE_NOINLINE void find_event(struct step_f32 *s, const struct step_f32_coeffs *c, float y, float w, float dy,

@@ -1,6 +1,6 @@
 /* The plant in single precision: one step of Eq. 20 with the slip sign frozen per piece, switches of regime located
- * inside the step, and an explicit stick state. PHYSICS and the reasons: MODEL.md. Pure: no I/O, no globals, no time.
- * */
+ * inside the step, and an explicit stick state. PHYSICS and the reasons: MODEL.md. Pure: no I/O, no globals, no
+ * time. */
 #ifndef MODEL_STEP_F32_H
 #define MODEL_STEP_F32_H
 

@@ -1,5 +1,5 @@
-/* One step of the tangential equation in integers: the usual step at once, others in pieces between switches of regime.
- * */
+/* One step of the tangential equation in integers: the usual step at once, others in pieces between switches of
+ * regime. */
 #include "model/step_q27.h"
 
 #include "model/event_q27.h"
@@ -145,8 +145,7 @@ static BASE_NOINLINE void advance_in_pieces(struct step_q27 *s, const struct ste
     output->is_gap_held = is_gap_held;
 }
 
-/* --- The usual step: whole, without an event, everything within the bounds of the fine arithmetic ------------------
- * */
+/* --- The usual step: whole, without an event, everything within the bounds of the fine arithmetic ----------------- */
 
 /* The step was tried as a whole, up to y, w and for a slip up to end, and may hold an event. */
 static BASE_NOINLINE void find_event(struct step_q27 *s, const struct step_q27_coeffs *c, int32_t y, int32_t w,

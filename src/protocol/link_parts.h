@@ -40,8 +40,8 @@ enum link_progress link_refuse_plain(struct link *link, enum error error);
 /* Is there room for a frame that comes by itself, and a reply after it? */
 bool link_has_room(const struct link *link);
 
-/* May the plant, which stands as the report says, be stepped or copied from here? Takes the turn. ERROR_OK, or why not.
- * */
+/* May the plant, which stands as the report says, be stepped or copied from here? Takes the turn. ERROR_OK, or why
+ * not. */
 enum error link_find_obstacle(struct link *link, const struct executive_report *report);
 
 /* Samples of the link's stream: is one waiting, those written or lost since it began. */

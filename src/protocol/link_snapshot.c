@@ -21,8 +21,7 @@ static size_t piece_size(uint16_t offset)
 
 static bool is_place(uint16_t offset) { return offset % LINK_PIECE == 0u && offset < SNAPSHOT_SIZE; }
 
-/* --- Away -----------------------------------------------------------------------------------------------------------
- * */
+/* --- Away --------------------------------------------------------------------------------------------------------- */
 
 static enum link_progress begin_snapshot(struct link *link)
 {
@@ -58,8 +57,7 @@ enum link_progress link_snapshot(struct link *link)
     return link_answer(link);
 }
 
-/* --- Back -----------------------------------------------------------------------------------------------------------
- * */
+/* --- Back --------------------------------------------------------------------------------------------------------- */
 
 static enum link_progress answer_restore(struct link *link)
 {

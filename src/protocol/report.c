@@ -18,8 +18,8 @@
 #define SQUEAL_LOW_HZ 1250.0f
 #define SQUEAL_HIGH_HZ 16000.0f
 
-/* An assumption: the ear hears 20 Hz to 20 kHz, and a pad slower than 0.1 mm/s (44 dB by the estimate) drowns in a car.
- * */
+/* An assumption: the ear hears 20 Hz to 20 kHz, and a pad slower than 0.1 mm/s (44 dB by the estimate) drowns in a
+ * car. */
 #define AUDIBLE_LOW_HZ 20.0f
 #define AUDIBLE_HIGH_HZ 20000.0f
 #define AUDIBLE_M_PER_S 1e-4f

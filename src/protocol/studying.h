@@ -1,5 +1,5 @@
-/* The console's studies: what they ask for as words, their results as lines. The studies themselves are in sim/study.h.
- * */
+/* The console's studies: what they ask for as words, their results as lines. The studies themselves are in
+ * sim/study.h. */
 #ifndef PROTOCOL_STUDYING_H
 #define PROTOCOL_STUDYING_H
 

@@ -21,8 +21,8 @@ bool studying_is_span(struct token word);
  * holds the defaults. False if something else is there, and that has been answered. */
 bool studying_read_span(struct console *console, struct token word, struct trial_span *span);
 
-/* Starts the task of a study, which is to be begun then; false if one is under way already, and that has been answered.
- * */
+/* Starts the task of a study, which is to be begun then; false if one is under way already, and that has been
+ * answered. */
 bool studying_start(struct console *console);
 
 /* Fields " key=value": of the trial that is over or was refused, and of the tally. */

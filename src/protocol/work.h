@@ -13,8 +13,8 @@ struct work {
     struct study study;       /* of the side that turn_take_study() let have it */
     struct selftest selftest; /* of the side that has the turn */
 
-    /* Kept up to date by the program for the self-test: ticks that came, and those that should have by another clock.
-     * */
+    /* Kept up to date by the program for the self-test: ticks that came, and those that should have by another
+     * clock. */
     uint32_t ticks_counted, ticks_expected;
 };
 

@@ -11,8 +11,7 @@ enum { FRACTION_BITS = 27, SUM_BITS = 56, FACTOR_BITS = 30, FACTOR_SHIFT_MAX = 9
 #define LAG_DONE 2.44140625e-4f /* 2^-12 of a unit */
 #define LAGS_TO_SETTLE 9.0f     /* e^-9 is less than that */
 
-/* --- Derived in main ------------------------------------------------------------------------------------------------
- * */
+/* --- Derived in main ---------------------------------------------------------------------------------------------- */
 
 /* As many bits as fit; what is below 2^-90 is nothing. factor in 0 ... 1. */
 static struct acting_factor factor_of(float factor)
@@ -109,8 +108,7 @@ uint64_t acting_settled_step(const struct acting *acting, const struct params *p
     return (base == UINT64_MAX ? 0u : base) + (uint32_t)wait;
 }
 
-/* --- What is asked for ----------------------------------------------------------------------------------------------
- * */
+/* --- What is asked for -------------------------------------------------------------------------------------------- */
 
 static int32_t rounded(int64_t sum_q56) { return (int32_t)fixed_shift_right(sum_q56, SUM_BITS - FRACTION_BITS); }
 
@@ -148,8 +146,7 @@ static int32_t demand_q27(const struct acting *acting, const struct acting_state
     }
 }
 
-/* --- What becomes of it ---------------------------------------------------------------------------------------------
- * */
+/* --- What becomes of it ------------------------------------------------------------------------------------------- */
 
 /* Up to 2^32 times 2^30, by 2^1 to 2^61. */
 static int64_t times_q56(int64_t value_q27, const struct acting_factor *factor)

@@ -1,6 +1,6 @@
 /* One plant with its load, its detector and its counters: what a tick advances. Everything lives in a struct that the
- * caller owns, so a program may run several side by side. The trajectory depends on the set and the step index alone.
- * */
+ * caller owns, so a program may run several side by side. The trajectory depends on the set and the step index
+ * alone. */
 #ifndef SIM_SIM_H
 #define SIM_SIM_H
 
@@ -83,8 +83,8 @@ struct sim {
 /* Back to the initial state of the plan at step 0. The plan must outlive its use here. [ISR] */
 void sim_reset(struct sim *sim, const struct sim_plan *plan);
 
-/* A new set takes hold between two steps; state and units are kept. The plan before it must still be as it was. [ISR]
- * */
+/* A new set takes hold between two steps; state and units are kept. The plan before it must still be as it was.
+ * [ISR] */
 void sim_apply(struct sim *sim, const struct sim_plan *plan);
 
 /* A controller's demand takes hold with the next step. In the safe state only one that starts does; any other is void,

@@ -56,8 +56,8 @@ static bool is_shorter(int64_t a, int64_t b, int64_t limit)
     return x <= most && y <= most && x * x + y * y <= most * most;
 }
 
-/* Only within its reach the fast arithmetic is known to fit. A free motion keeps its distance from n, or loses of it.
- * */
+/* Only within its reach the fast arithmetic is known to fit. A free motion keeps its distance from n, or loses of
+ * it. */
 static bool is_within_reach(const struct normal_q27 *normal, const struct normal_q27_coeffs *coeffs)
 {
     const int64_t room = (int64_t)normal->reach - (int64_t)fixed_abs(normal->n) + REACH_ROUNDING;

@@ -75,8 +75,7 @@ static BASE_NOINLINE void walk_f32(struct snapshot_walk *walk, float *value)
     }
 }
 
-/* --- The fields -----------------------------------------------------------------------------------------------------
- * */
+/* --- The fields --------------------------------------------------------------------------------------------------- */
 
 static void walk_plant_f32(struct snapshot_walk *walk, struct step_f32 *f32)
 {

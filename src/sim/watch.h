@@ -56,12 +56,12 @@ static inline bool watch_is_wanted(const struct watch_config *config)
     return config->stale != WATCH_NEVER || config->safe != WATCH_NEVER;
 }
 
-/* A demand has taken hold, or in SAFE an explicit start. is_held: force or speed, or both, are the controller's. [ISR]
- * */
+/* A demand has taken hold, or in SAFE an explicit start. is_held: force or speed, or both, are the controller's.
+ * [ISR] */
 void watch_hear(struct watch *watch, const struct watch_config *config, bool is_held);
 
-/* Another set took hold. A watch that it switches on begins now; one that it switches off ends, but SAFE stays. [ISR]
- * */
+/* Another set took hold. A watch that it switches on begins now; one that it switches off ends, but SAFE stays.
+ * [ISR] */
 void watch_follow(struct watch *watch, const struct watch_config *config, bool is_held);
 
 /* A step begins: decides its state, then counts it. Not for WATCH_OFF. [ISR] */

@@ -1,5 +1,5 @@
-/* The link's line: every good frame that goes in has one reply that comes out, in this order, and nothing else comes.
- * */
+/* The link's line: every good frame that goes in has one reply that comes out, in this order, and nothing else
+ * comes. */
 #include <string.h>
 
 #include "firmware.h"

@@ -1,8 +1,8 @@
 /* The rules; README.md says them in words. */
 #include "judge.h"
 
-/* Seven e-folds leave a thousandth, the detector's own tolerance: before that a transient that dies out is to be seen.
- * */
+/* Seven e-folds leave a thousandth, the detector's own tolerance: before that a transient that dies out is to be
+ * seen. */
 #define FOLDS_VISIBLE (-7.0)
 #define SLEEP_SHARE 0.1 /* of the true motion */
 #define MOTION_CALLED (1.0 / 32.0)

@@ -72,8 +72,8 @@ static void wait_for_calls(uint32_t calls)
     }
 }
 
-/* The tick against the clock, which is a counter of its own: an emulator or a driver that loses interrupts shows here.
- * */
+/* The tick against the clock, which is a counter of its own: an emulator or a driver that loses interrupts shows
+ * here. */
 static void test_rate(uint32_t rate_hz)
 {
     const uint32_t period = (hal_clock_hz() + rate_hz / 2u) / rate_hz;

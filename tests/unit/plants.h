@@ -36,8 +36,8 @@ float plants_x_m(const struct plant *plant);
 float plants_largest_v(struct plant *plant, uint32_t steps);
 
 /* Starts the plant without damping and slope, with Z = 3/2, N a quarter of N_max and further assignments, and holds
- * twenty periods of slip, in either arithmetic, against the closed form; the tolerance is a part of the largest swing.
- * */
+ * twenty periods of slip, in either arithmetic, against the closed form; the tolerance is a part of the largest
+ * swing. */
 void plants_check_undamped(struct plant *plant, const char *assignments, float tolerance);
 
 /* An executive from assignments, the order taken but no step made. */

@@ -44,8 +44,7 @@ static void start(const char *assignments, float arith)
     sim_reset(&plant.sim, &plant.plan);
 }
 
-/* --- Limits, lag, dither --------------------------------------------------------------------------------------------
- * */
+/* --- Limits, lag, dither ------------------------------------------------------------------------------------------ */
 
 /* 1 - e^-x without the function under test. */
 static float rise(float x) { return 1.0f - fmath_exp2(-1.44269504f * x); }
@@ -118,8 +117,7 @@ static void check_dither(float arith)
     tap_check(worst == 0.0f, "of a force that stays above 0");
 }
 
-/* --- Inertia --------------------------------------------------------------------------------------------------------
- * */
+/* --- Inertia ------------------------------------------------------------------------------------------------------ */
 
 static void start_stop(struct plant *which, float arith, const char *assignments)
 {
@@ -216,8 +214,7 @@ static void check_alike(void)
     tap_check(plant.sim.counters.saturations == 0u && twin.sim.counters.saturations == 0u, "which saturates nothing");
 }
 
-/* --- While it runs --------------------------------------------------------------------------------------------------
- * */
+/* --- While it runs ------------------------------------------------------------------------------------------------ */
 
 static void apply(const char *assignments)
 {

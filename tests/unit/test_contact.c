@@ -11,8 +11,8 @@
 static struct plant plant;
 static const struct step_f32 *const pad = &plant.sim.f32;
 
-/* From 4 N to 1 N where the pad is pressed deepest: y then swings from 7 below to 9 above, in units of the last load.
- * */
+/* From 4 N to 1 N where the pad is pressed deepest: y then swings from 7 below to 9 above, in units of the last
+ * load. */
 static void check_contact(void)
 {
     static struct plant other;

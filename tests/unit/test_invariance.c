@@ -1,5 +1,5 @@
-/* What must not change the motion: mirror images, scalings, the split of a sum; and what it must keep: energy, bounds.
- * */
+/* What must not change the motion: mirror images, scalings, the split of a sum; and what it must keep: energy,
+ * bounds. */
 #include "base/fmath.h"
 #include "plants.h"
 #include "tap.h"

@@ -1,5 +1,5 @@
-/* Over the link: a controller that falls silent and how it comes back; a run that is taken away in pieces and put back.
- * */
+/* Over the link: a controller that falls silent and how it comes back; a run that is taken away in pieces and put
+ * back. */
 #include "base/mem.h"
 #include "controller.h"
 #include "plants.h"
@@ -123,8 +123,7 @@ static void check_console(void)
               "the safe state does not come before the stale one");
 }
 
-/* --- A run in pieces ------------------------------------------------------------------------------------------------
- * */
+/* --- A run in pieces ---------------------------------------------------------------------------------------------- */
 
 static uint8_t run[PIECES * LINK_PIECE];
 

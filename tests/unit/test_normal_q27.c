@@ -1,5 +1,5 @@
-/* The normal oscillator in integers: what RK4 loses, that the closed forms lose nothing, and the arc that events use.
- * */
+/* The normal oscillator in integers: what RK4 loses, that the closed forms lose nothing, and the arc that events
+ * use. */
 #include "model/normal_q27.h"
 
 #include "base/fmath.h"

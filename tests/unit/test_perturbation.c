@@ -11,8 +11,8 @@ enum { SPP = 256, PERIODS = 10 };
 
 static struct plant plant;
 
-/* The plant on the orbit of order 2, and the largest distance of a form from it over ten periods, over half its range.
- * */
+/* The plant on the orbit of order 2, and the largest distance of a form from it over ten periods, over half its
+ * range. */
 static float error_of(const char *assignments, enum perturbation_form form, unsigned order)
 {
     struct params params = plants_params(assignments);

@@ -38,8 +38,8 @@ static void check_pinned(void)
               "so are normal ones");
 }
 
-/* Moments over n numbers, in Q15, against those of -1 ... 1: error of the mean 0.58/sqrt n, of the square 0.3/sqrt n.
- * */
+/* Moments over n numbers, in Q15, against those of -1 ... 1: error of the mean 0.58/sqrt n, of the square 0.3/sqrt
+ * n. */
 static void check_uniform(void)
 {
     const uint32_t count = plants_scaled(200000u, 20000u);

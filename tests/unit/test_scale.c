@@ -168,8 +168,8 @@ static void check_refusals(void)
               "units too small to divide by");
 }
 
-/* z = 2 pi/spp max(1, Z, C, Cn) <= 0.40: at 16 steps Z2 <= 1.03753, at 64 steps C, Cn <= 4.0744 (c <= 2.23163 N s/m).
- * */
+/* z = 2 pi/spp max(1, Z, C, Cn) <= 0.40: at 16 steps Z2 <= 1.03753, at 64 steps C, Cn <= 4.0744 (c <= 2.23163 N
+ * s/m). */
 static void check_step_limit(void)
 {
     tap_check(serves("spp 16 kt 0.5 k 0.5375") && refuses("spp 16 kt 0.5 k 0.5376", NULL, ERROR_STEP_TOO_LARGE, "spp"),

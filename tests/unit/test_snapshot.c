@@ -59,8 +59,7 @@ static enum error put_back(struct executive *executive)
     return error;
 }
 
-/* --- It goes on -----------------------------------------------------------------------------------------------------
- * */
+/* --- It goes on --------------------------------------------------------------------------------------------------- */
 
 static bool go_on_alike(uint32_t steps)
 {
@@ -159,8 +158,7 @@ static void check_room(void)
     tap_check(other.inputs_refused == 1u, "and a reset gives it back");
 }
 
-/* --- What is refused ------------------------------------------------------------------------------------------------
- * */
+/* --- What is refused ---------------------------------------------------------------------------------------------- */
 
 static void sign(void)
 {

@@ -36,8 +36,7 @@ static float difference(uint32_t periods)
     return worst;
 }
 
-/* --- What it must reach ---------------------------------------------------------------------------------------------
- * */
+/* --- What it must reach ------------------------------------------------------------------------------------------- */
 
 /* tests/golden: fig5_N5, which sticks and crosses; x after 20 periods from a solver of order 22. */
 static void check_golden(void)
@@ -97,8 +96,7 @@ static void check_rest(const char *assignments, bool is_lifted)
     tap_note_number("counts", (float)high - (float)low);
 }
 
-/* --- Against its twin -----------------------------------------------------------------------------------------------
- * */
+/* --- Against its twin --------------------------------------------------------------------------------------------- */
 
 static void agree(const char *assignments, float tolerance)
 {
@@ -160,8 +158,7 @@ static void check_paths(const char *assignments, float tolerance)
     tap_check(plant.sim.counters.events == other.sim.counters.events, "through the same events");
 }
 
-/* --- To the bit ------------------------------------------------------------------------------------------------------
- * */
+/* --- To the bit --------------------------------------------------------------------------------------------------- */
 
 static bool is_mirrored(const struct sim *a, const struct sim *b)
 {

@@ -1,5 +1,5 @@
-/* The disc's surface: its statistics, its independence of the step, the angle of the disc, and that nothing is nothing.
- * */
+/* The disc's surface: its statistics, its independence of the step, the angle of the disc, and that nothing is
+ * nothing. */
 #include "sim/texture.h"
 
 #include "base/fmath.h"

@@ -31,8 +31,8 @@ static void check_jolt(void)
     tap_check(!squeals(ramp, 300u), "jolts the pad, which is no squeal");
 }
 
-/* Next to the normal frequency strobes hardly differ, and the free part drowns in rounding long before the motion ends.
- * */
+/* Next to the normal frequency strobes hardly differ, and the free part drowns in rounding long before the motion
+ * ends. */
 static void check_slow_strobes(void)
 {
     static const char *const near =

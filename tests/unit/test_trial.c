@@ -75,8 +75,8 @@ static void check_ride(void)
     tap_check(trial.end == TRIAL_DECAYED && trial.sim.output.v == 0, "under a stopped disc sticking is an end");
 }
 
-/* At resonance the forced motion creeps up to the disc's speed while its transient decays: that is no promise of quiet.
- * */
+/* At resonance the forced motion creeps up to the disc's speed while its transient decays: that is no promise of
+ * quiet. */
 static void check_resonance(void)
 {
     struct params params = plants_params("kt 0.5 k 0.5 c 0.0088 alpha 0 v0 33.9");

@@ -1,6 +1,6 @@
 /* The least that an image on an MPS2 board can do with the link: for as many bytes as a STEP has it sends as many as
- * the reply has. No interrupt is taken; it sleeps until a byte comes. What the firmware needs beyond this is its own.
- * */
+ * the reply has. No interrupt is taken; it sleeps until a byte comes. What the firmware needs beyond this is its
+ * own. */
 #include "base/assert.h"
 #include "cortex_m/nvic.h"
 #include "hal_board.h"

@@ -17,8 +17,8 @@ struct peer {
     bool is_busy; /* waits by looking again and again, for 2 ms, before it sleeps */
 };
 
-/* Starts argv[0] .. NULL, which must listen at path, and connects. Complains and returns false if that takes too long.
- * */
+/* Starts argv[0] .. NULL, which must listen at path, and connects. Complains and returns false if that takes too
+ * long. */
 bool peer_start(struct peer *peer, char **argv, const char *path);
 
 /* A process of our own that answers as many bytes as asked with as many as answered. */

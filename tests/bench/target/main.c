@@ -36,8 +36,7 @@ struct tally {
 
 static struct tally tallies[PART_COUNT];
 
-/* --- Words ---------------------------------------------------------------------------------------------------------
- * */
+/* --- Words -------------------------------------------------------------------------------------------------------- */
 
 static void write_text(const char *text)
 {
@@ -90,8 +89,7 @@ static void write_memory(const char *name, const char *arith, const char *functi
     write_text("\r\n");
 }
 
-/* --- Counting ------------------------------------------------------------------------------------------------------
- * */
+/* --- Counting ----------------------------------------------------------------------------------------------------- */
 
 static void book(enum part part, uint32_t counts)
 {
@@ -131,8 +129,7 @@ static enum part part_of(const struct plant_output *output)
                                          : PART_SLIP;
 }
 
-/* --- Stack ---------------------------------------------------------------------------------------------------------
- * */
+/* --- Stack -------------------------------------------------------------------------------------------------------- */
 
 extern uint8_t ld_stack_bottom[];
 
@@ -158,8 +155,7 @@ static uint32_t depth(uintptr_t top)
     return (uint32_t)(top - (uintptr_t)at);
 }
 
-/* --- Subjects ------------------------------------------------------------------------------------------------------
- * */
+/* --- Subjects ----------------------------------------------------------------------------------------------------- */
 
 static void measure(const struct subject *subject)
 {
@@ -195,8 +191,7 @@ static void measure(const struct subject *subject)
     }
 }
 
-/* --- The interrupt as a whole --------------------------------------------------------------------------------------
- * */
+/* --- The interrupt as a whole ------------------------------------------------------------------------------------- */
 
 /* Main does nothing but look at the clock: what is missing between two looks went to the interrupt. */
 static void watch(uint32_t ticks)

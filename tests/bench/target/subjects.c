@@ -42,8 +42,7 @@ static void start_sim(const struct subject *subject)
 
 const struct plant_output *subjects_output(void) { return &sim.output; }
 
-/* --- Steps ---------------------------------------------------------------------------------------------------------
- * */
+/* --- Steps -------------------------------------------------------------------------------------------------------- */
 
 static void no_step_f32(struct step_f32 *s, const struct step_f32_coeffs *c, float load, float speed,
                         struct plant_output *output)
@@ -77,8 +76,7 @@ static void call_f32(void) { step_f32(&sim.f32, &plan.f32, sim.f32.normal.n, sim
 
 static void call_q27(void) { step_q27(&sim.q27, &plan.q27, sim.q27.normal.n, sim.q27.disc, &sim.output); }
 
-/* --- The textbook --------------------------------------------------------------------------------------------------
- * */
+/* --- The textbook ------------------------------------------------------------------------------------------------- */
 
 static void start_textbook(const struct subject *subject)
 {
@@ -101,8 +99,7 @@ static void aim_double(bool at_nothing) { textbook_double = at_nothing ? no_text
 static void call_float(void) { textbook_float(&pad_float); }
 static void call_double(void) { textbook_double(&pad_double); }
 
-/* --- What is around a step -----------------------------------------------------------------------------------------
- * */
+/* --- What is around a step ---------------------------------------------------------------------------------------- */
 
 static bool no_sim_step(struct sim *which)
 {
@@ -172,8 +169,7 @@ static void drain(void)
     }
 }
 
-/* --- The list ------------------------------------------------------------------------------------------------------
- * */
+/* --- The list ----------------------------------------------------------------------------------------------------- */
 
 /* The plant that the detector hears, beside the count. */
 static void advance_plant(void)

@@ -67,8 +67,7 @@ void conversation_init(struct conversation *conversation, struct text *output)
     master_init(&conversation->master);
 }
 
-/* --- Requests -------------------------------------------------------------------------------------------------------
- * */
+/* --- Requests ----------------------------------------------------------------------------------------------------- */
 
 /* A request is on its way, or never will be: there is room for two frames, and no more than one waits. */
 static void wait(struct conversation *conversation, bool is_asked)
@@ -161,8 +160,7 @@ void conversation_release(struct conversation *conversation)
     ask(conversation, LINK_INPUT, &fields);
 }
 
-/* --- Answers --------------------------------------------------------------------------------------------------------
- * */
+/* --- Answers ------------------------------------------------------------------------------------------------------ */
 
 static float read_f32(const struct frame *frame, size_t offset)
 {

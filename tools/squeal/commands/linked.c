@@ -67,8 +67,8 @@ int linked_read_values(struct device *device, char *const *words, size_t count, 
     return EXIT_OK;
 }
 
-/* One of two options that exclude each other, in the demand's terms. Which of the kinds it was, 0 none, -1 a mistake.
- * */
+/* One of two options that exclude each other, in the demand's terms. Which of the kinds it was, 0 none, -1 a
+ * mistake. */
 static int read_held(const struct arguments *arguments, const char *first, const char *second, float *value)
 {
     const char *const names[] = {first, second};

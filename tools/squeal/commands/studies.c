@@ -98,8 +98,7 @@ static int await(struct study *study, const char *what, uint32_t results)
     return study->came == results ? EXIT_OK : fail_here("results are missing");
 }
 
-/* --- scan ----------------------------------------------------------------------------------------------------------
- * */
+/* --- scan --------------------------------------------------------------------------------------------------------- */
 
 /* Reads "NAME FROM TO POINTS [log]" from the operands on. Returns how many it took, 0 after a mistake with *code. */
 static size_t read_axis(struct study *study, char *const *words, size_t count, struct device_axis *axis, int *code)
@@ -236,8 +235,7 @@ int command_scan(const struct arguments *arguments)
     return code;
 }
 
-/* --- margin --------------------------------------------------------------------------------------------------------
- * */
+/* --- margin ------------------------------------------------------------------------------------------------------- */
 
 static void tell_side(const char *name, const struct device_side *side)
 {

@@ -47,8 +47,8 @@ struct session {
 };
 
 /* Starts argv[0] with its arguments and turns its echo off, for which it gets SESSION_START_S, since an emulator on a
- * busy machine is slow to start. The listener may be NULL. On SESSION_LOST failure is set and nothing is left running.
- * */
+ * busy machine is slow to start. The listener may be NULL. On SESSION_LOST failure is set and nothing is left
+ * running. */
 enum session_result session_open(struct session *session, char *const argv[], session_listener listener, void *context);
 
 /* Sends one line and waits at most limit_s for its answer. While it waits it takes whatever the firmware says, so the

@@ -65,8 +65,8 @@ static bool send_out(struct device *device)
     return true;
 }
 
-/* Keeps the reply's payload, which the next byte would overwrite: whoever asked reads it when all that came is taken.
- * */
+/* Keeps the reply's payload, which the next byte would overwrite: whoever asked reads it when all that came is
+ * taken. */
 static enum master_event bytes_take(struct device *device, const uint8_t *bytes, size_t size, struct frame *answer)
 {
     enum master_event outcome = MASTER_NOTHING;

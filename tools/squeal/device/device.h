@@ -94,8 +94,8 @@ enum device_result device_read_table(struct device *device, enum device_table ta
 size_t device_count(struct device *device, enum device_table table);
 const struct device_row *device_row(struct device *device, enum device_table table, size_t index);
 
-/* The number of the row with that symbol; -1 if there is none, which is then the problem, with names that are like it.
- * */
+/* The number of the row with that symbol; -1 if there is none, which is then the problem, with names that are like
+ * it. */
 int device_find(struct device *device, enum device_table table, const char *symbol);
 
 /* Text to a value of a parameter and back: a name for a choice, else a number. Parsing gives false with the problem if
@@ -211,8 +211,7 @@ struct device_stream {
 enum device_result device_stream(struct device *device, const int *signals, size_t count, uint32_t every,
                                  struct device_stream *reply);
 
-/* --- Studies: trials beside the plant, which goes on undisturbed ---------------------------------------------------
- * */
+/* --- Studies: trials beside the plant, which goes on undisturbed -------------------------------------------------- */
 
 struct device_axis {
     int param;

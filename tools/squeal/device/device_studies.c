@@ -59,8 +59,7 @@ enum device_result device_selftest(struct device *device, double limit_s, unsign
     return result;
 }
 
-/* --- Requests ------------------------------------------------------------------------------------------------------
- * */
+/* --- Requests ----------------------------------------------------------------------------------------------------- */
 
 static void put_axis(struct bytes_writer *request, const struct device_axis *axis)
 {
@@ -143,8 +142,7 @@ enum device_result device_await_study(struct device *device, bool (*is_unwanted)
     return result;
 }
 
-/* --- Results -------------------------------------------------------------------------------------------------------
- * */
+/* --- Results ------------------------------------------------------------------------------------------------------ */
 
 static void take_point(struct device *device, struct bytes_reader *reader)
 {

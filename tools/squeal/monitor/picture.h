@@ -89,8 +89,8 @@ void picture_forget(struct picture *picture);
 /* Level of an rms velocity. */
 double picture_level_db(double velocity_m_per_s);
 
-/* A kind of motion in words: enum detector_class, and after how many it repeats. Empty for one that is not known here.
- * */
+/* A kind of motion in words: enum detector_class, and after how many it repeats. Empty for one that is not known
+ * here. */
 void picture_motion(char *out, size_t size, uint8_t motion, uint8_t period);
 
 /* "quiet" and its like; capitals for large letters. */

@@ -111,8 +111,8 @@ static double rms_velocity(const struct trace *trace, uint64_t count)
     return sqrt(variance > 0.0 ? variance : 0.0);
 }
 
-/* Of the energy, which does not swing with the motion as its halves do: the newer half of the samples over the older.
- * */
+/* Of the energy, which does not swing with the motion as its halves do: the newer half of the samples over the
+ * older. */
 static double growth(const struct trace *trace, uint64_t count, double middle_m, double frequency_hz)
 {
     const double omega = 2.0 * 3.14159265358979323846 * frequency_hz;

@@ -111,8 +111,7 @@ static struct lab_track run_on_orbit(struct lab *lab, struct solution *solution,
     return lab_record(lab, "x", PERIODS, 1);
 }
 
-/* --- Pictures ------------------------------------------------------------------------------------------------------
- * */
+/* --- Pictures ----------------------------------------------------------------------------------------------------- */
 
 /* Time in periods, the device, then every form: over the first periods. */
 static void write_motion(FILE *script, const struct solution *solution, const struct lab_track *track)
@@ -185,8 +184,7 @@ static void run_case(struct lab *lab, const struct analytic_case *what, double w
     lab_csv_tracks(lab, what->name, &track, 1);
 }
 
-/* --- The normal direction ------------------------------------------------------------------------------------------
- * */
+/* --- The normal direction ----------------------------------------------------------------------------------------- */
 
 /* Distance of y from N/ke (1 - wave), in N/ke. */
 static double normal_error(struct lab *lab, const struct lab_track *track, double (*wave)(double))

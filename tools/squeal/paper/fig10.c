@@ -69,8 +69,7 @@ static void set(struct lab *lab, const struct diagram *diagram, double force_n)
     lab_table1(lab, "%s N0 %.9g", diagram->set, force_n);
 }
 
-/* --- The diagram ----------------------------------------------------------------------------------------------------
- * */
+/* --- The diagram -------------------------------------------------------------------------------------------------- */
 
 static const char commands[] =
     "set title headline offset 0,1.3\nset xlabel axis\nset ylabel 'x once a normal period  [m]'\nset xrange [from:to]\n"

@@ -100,8 +100,7 @@ struct lab_motion lab_measure(struct lab *lab, unsigned periods, struct lab_trac
  * order, the first axis fastest. count may be NULL. */
 const struct device_point *lab_scan(struct lab *lab, const char *axes, const struct device_span *span, size_t *count);
 
-/* --- What was found -------------------------------------------------------------------------------------------------
- * */
+/* --- What was found ----------------------------------------------------------------------------------------------- */
 
 /* The reference solution's cell for a case of the golden table; NaN where it has no number. */
 double lab_reference(struct lab *lab, const char *name, const char *column);

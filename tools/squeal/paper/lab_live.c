@@ -106,8 +106,7 @@ double lab_events(struct lab *lab)
     return (double)status.events;
 }
 
-/* --- Borders --------------------------------------------------------------------------------------------------------
- * */
+/* --- Borders ------------------------------------------------------------------------------------------------------ */
 
 struct answer {
     struct device_border border;
@@ -155,8 +154,7 @@ double lab_bisect(struct lab *lab, double no, double yes, int times, bool (*is_y
     return 0.5 * (no + yes);
 }
 
-/* --- Pictures -------------------------------------------------------------------------------------------------------
- * */
+/* --- Pictures ----------------------------------------------------------------------------------------------------- */
 
 void lab_path(struct lab *lab, char path[PAPER_PATH_MAX], const char *name)
 {

@@ -106,8 +106,7 @@ double orbit_log_multiplier(struct lab *lab, unsigned most)
     return fit.count < FITTED_LEAST ? (double)NAN : fit_slope(&fit);
 }
 
-/* --- Two plants -----------------------------------------------------------------------------------------------------
- * */
+/* --- Two plants --------------------------------------------------------------------------------------------------- */
 
 double orbit_parting(struct lab *lab, double offset_m, unsigned from, unsigned to, double *distance_m)
 {
@@ -131,8 +130,7 @@ double orbit_parting(struct lab *lab, double offset_m, unsigned from, unsigned t
     return fit_slope(&fit);
 }
 
-/* --- Doubling -------------------------------------------------------------------------------------------------------
- * */
+/* --- Doubling ----------------------------------------------------------------------------------------------------- */
 
 static bool is_doubled_at(struct lab *lab, const char *symbol, double value)
 {

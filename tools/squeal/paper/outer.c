@@ -14,14 +14,14 @@ enum { CASES = 3, LIFE_PERIODS = 3000, HALVINGS = 22, SEEN_FROM = 4, SEEN_PERIOD
 #define FORCE_N 1.0
 #define LIMIT 3e-3 /* relative */
 
-/* Start against the disc's sense from which on the pad runs away, by the reference solver: halfway between two trials.
- * */
+/* Start against the disc's sense from which on the pad runs away, by the reference solver: halfway between two
+ * trials. */
 static const struct {
     double slope, reference;
 } cases[CASES] = {{0.02, 38.19}, {0.05, 9.482}, {0.1, 4.0725}};
 
-/* Started at that speed, does the pad run away? The load is there from the start, so that nothing swings into the disc.
- * */
+/* Started at that speed, does the pad run away? The load is there from the start, so that nothing swings into the
+ * disc. */
 static void start(struct lab *lab, double speed) { lab_setf(lab, "xd0 %.9g", -speed); }
 
 static bool runs_away(struct lab *lab, double speed)

@@ -6,8 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* --- Parts of a section --------------------------------------------------------------------------------------------
- * */
+/* --- Parts of a section ------------------------------------------------------------------------------------------- */
 
 /* What is open while the items of a record are written one after the other. */
 struct writing {

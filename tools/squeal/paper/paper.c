@@ -49,8 +49,7 @@ const char *paper_verdict_name(enum paper_verdict verdict)
     return names[verdict <= PAPER_NOT_JUDGED ? verdict : PAPER_NOT_JUDGED];
 }
 
-/* --- Options -------------------------------------------------------------------------------------------------------
- * */
+/* --- Options ------------------------------------------------------------------------------------------------------ */
 
 static const char *text_or(const struct arguments *arguments, const char *name, const char *standard)
 {
@@ -137,8 +136,7 @@ static void write_line(const struct arguments *arguments, char line[LINE_SIZE])
     }
 }
 
-/* --- The course ----------------------------------------------------------------------------------------------------
- * */
+/* --- The course --------------------------------------------------------------------------------------------------- */
 
 static int fail(const char *problem)
 {

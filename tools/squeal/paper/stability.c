@@ -1,5 +1,5 @@
-/* Is it N |alpha| < c that keeps the brake quiet? A map of trials, and the border of permanent slip over beta + gamma.
- * */
+/* Is it N |alpha| < c that keeps the brake quiet? A map of trials, and the border of permanent slip over beta +
+ * gamma. */
 #include "squeal/paper/lab_live.h"
 #include "squeal/paper/lab_map.h"
 #include "squeal/paper/lab_model.h"

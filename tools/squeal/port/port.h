@@ -35,8 +35,8 @@ bool port_open(struct port *port, const char *name);
 /* Ends what was started, and reaps it. The problem stays. */
 void port_close(struct port *port);
 
-/* Moves what can be moved now: bytes read or taken, 0 if that is nothing, -1 with the problem if the other end is gone.
- * */
+/* Moves what can be moved now: bytes read or taken, 0 if that is nothing, -1 with the problem if the other end is
+ * gone. */
 ssize_t port_read(struct port *port, void *bytes, size_t size);
 ssize_t port_write(struct port *port, const void *bytes, size_t size);
 

@@ -26,8 +26,8 @@ const char *json_member(const char *object, const char *name);
 const char *json_element(const char *array, size_t index);
 size_t json_count(const char *value);
 
-/* A string's characters or a number's digits, cut to size; false, with an empty out, for anything else, and for NULL.
- * */
+/* A string's characters or a number's digits, cut to size; false, with an empty out, for anything else, and for
+ * NULL. */
 bool json_text(const char *value, char *out, size_t size);
 
 #endif
