@@ -48,13 +48,13 @@ static void move_to(struct work *work, int32_t place, int32_t y)
     const uint32_t fraction = (uint32_t)fraction_to(work, place);
 
     if (work->s->mode == PLANT_STICK) {
-        work->progress->stick += fraction;
+        work->progress->notes.stick += fraction;
     } else if (work->s->mode == PLANT_SLIP_MINUS) {
-        work->progress->slip_minus += fraction;
+        work->progress->notes.slip_minus += fraction;
     }
     work->stretch.at = place;
     work->s->normal.y = y;
-    work->progress->is_lifted = work->progress->is_lifted || y < 0;
+    work->progress->notes.is_lifted = work->progress->notes.is_lifted || y < 0;
 }
 
 /* The factors of the way from here to a place; the whole step has them ready. */
@@ -203,8 +203,8 @@ static void slip_piece(struct work *work, const struct slip_q27_end *known)
         slip(work, piece.factors, &piece.view, &piece.end);
     }
     place = find_crossing(work, &piece);
-    if (place != NOT_HERE && work->progress->events == PLANT_EVENTS_MAX) {
-        work->progress->is_capped = true;
+    if (place != NOT_HERE && work->progress->notes.events == PLANT_EVENTS_MAX) {
+        work->progress->notes.is_capped = true;
         place = NOT_HERE;
     }
     if (place == NOT_HERE) {
@@ -214,7 +214,7 @@ static void slip_piece(struct work *work, const struct slip_q27_end *known)
         s->rest = piece.end.rest;
         return;
     }
-    work->progress->events++;
+    work->progress->notes.events++;
     if (place > 0) {
         const int32_t meeting = place_within(work, place);
 
@@ -273,13 +273,13 @@ static void stick_piece(struct work *work)
         (int64_t)work->c->wide.friction * force_of(work, work->stretch.y_end) - (side < 0 ? -need_end : need_end);
     int32_t place;
 
-    if (spare_end >= 0 || work->progress->events == PLANT_EVENTS_MAX) {
-        work->progress->is_capped = work->progress->is_capped || spare_end < 0;
+    if (spare_end >= 0 || work->progress->notes.events == PLANT_EVENTS_MAX) {
+        work->progress->notes.is_capped = work->progress->notes.is_capped || spare_end < 0;
         move_to(work, ONE, work->stretch.y_end);
         s->x = x_end;
         return;
     }
-    work->progress->events++;
+    work->progress->notes.events++;
     place = place_within(work, find_exit(work, side, travel, spare_end));
     if (place > work->stretch.at) {
         s->x = fixed_saturate_and_tell((int64_t)s->x + carried(work, place), &s->is_saturated);

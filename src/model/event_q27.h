@@ -5,11 +5,10 @@
 
 #include "model/step_q27.h"
 
-/* What of the step is to be reported, in fractions of it (Q30). */
+/* What of the step is to be reported, and how often the contact has changed in it. */
 struct event_q27_progress {
-    uint32_t stick, slip_minus;
-    unsigned events, contacts;
-    bool is_capped, is_lifted;
+    struct plant_notes notes;
+    unsigned contacts;
 };
 
 /* What the fast path knows of a whole step when it finds that it does not serve: the normal motion, and where the pad

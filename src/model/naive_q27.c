@@ -16,7 +16,7 @@ static BASE_NOINLINE int32_t increment(struct step_q27 *s, const struct step_q27
     return side * slip_q27_increment(f, &view, side * x, side * v, p, c->has_floor, SLIP_Q27_WIDE, tell);
 }
 
-void naive_q27_step(struct step_q27 *s, const struct step_q27_coeffs *c, struct event_q27_progress *progress)
+void naive_q27_step(struct step_q27 *s, const struct step_q27_coeffs *c, struct plant_notes *notes)
 {
     const int32_t travel = c->wide.travel;
     bool *const tell = &s->is_saturated;
@@ -42,10 +42,10 @@ void naive_q27_step(struct step_q27 *s, const struct step_q27_coeffs *c, struct 
         s->v = fixed_saturate_and_tell(s->v + fixed_shift_right(gain, 32u), tell);
     }
     s->mode = (int8_t)((s->disc > s->v) - (s->disc < s->v));
-    progress->slip_minus = s->mode == PLANT_SLIP_MINUS ? PLANT_SHARE_ONE : 0u;
-    progress->stick = s->mode == PLANT_STICK ? PLANT_SHARE_ONE : 0u;
+    notes->slip_minus = s->mode == PLANT_SLIP_MINUS ? PLANT_SHARE_ONE : 0u;
+    notes->stick = s->mode == PLANT_STICK ? PLANT_SHARE_ONE : 0u;
     normal_q27_move(&s->normal, &piece);
-    progress->is_lifted = s->normal.y < 0;
+    notes->is_lifted = s->normal.y < 0;
     if (c->normal.contact == CONTACT_LIFT && !s->normal.is_steady_from_rest) {
         s->normal.is_lifted = s->normal.y < 0;
     }

@@ -4,6 +4,6 @@
 
 #include "model/event_q27.h"
 
-void naive_q27_step(struct step_q27 *s, const struct step_q27_coeffs *c, struct event_q27_progress *progress);
+void naive_q27_step(struct step_q27 *s, const struct step_q27_coeffs *c, struct plant_notes *notes);
 
 #endif

@@ -22,8 +22,9 @@ static inline int32_t inside_q27(float value) { return (int32_t)(value * (float)
 
 /* State in Q4.27; the usual case, all of it in range, is asked once. The disc's speed never leaves it: inputs are
  * within 1, but for rounding. */
-BASE_INLINE void report_state(const struct step_f32 *s, const struct step_f32_coeffs *c, struct plant_output *output)
+BASE_INLINE void report_state(struct step_f32 *s, const struct step_f32_coeffs *c)
 {
+    struct plant_output *output = &s->output;
     const float x = s->x * c->output_length;
     bool is_saturated = false;
 
@@ -40,7 +41,13 @@ BASE_INLINE void report_state(const struct step_f32 *s, const struct step_f32_co
     }
     output->disc = inside_q27(s->disc);
     output->mode = s->mode;
-    output->is_saturated = is_saturated;
+    output->has_notes = is_saturated;
+    if (BASE_UNLIKELY(is_saturated)) {
+        output->has_notes = false;
+        output->noted = plant_notes(output);
+        output->noted.is_saturated = true;
+        output->has_notes = true;
+    }
 }
 
 #endif

@@ -13,12 +13,6 @@ static uint32_t to_share(float share)
     return share >= 1.0f ? PLANT_SHARE_ONE : share > 0.0f ? (uint32_t)(share * (float)PLANT_SHARE_ONE) : 0u;
 }
 
-void step_f32_report(const struct step_f32 *s, const struct step_f32_coeffs *c, struct plant_output *output)
-{
-    *output = (struct plant_output){0};
-    report_state(s, c, output);
-}
-
 void step_f32_configure(struct step_f32_coeffs *coeffs, const struct params *params, const struct scale *scale)
 {
     coeffs->damping = scale->damping;
@@ -44,6 +38,18 @@ void step_f32_configure(struct step_f32_coeffs *coeffs, const struct params *par
     };
 }
 
+/* Of an unusual step. */
+static void report(struct step_f32 *s, const struct step_f32_coeffs *c, const struct plant_notes *notes)
+{
+    bool is_saturated;
+
+    report_state(s, c);
+    is_saturated = s->output.has_notes;
+    s->output.has_notes = true;
+    s->output.noted = *notes;
+    s->output.noted.is_saturated = is_saturated;
+}
+
 void step_f32_reset(struct step_f32 *state, const struct step_f32_coeffs *coeffs, const struct params *params,
                     const struct scale *scale, struct step_f32_input first)
 {
@@ -55,14 +61,15 @@ void step_f32_reset(struct step_f32 *state, const struct step_f32_coeffs *coeffs
     state->disc = state->v;
     state->mode = PLANT_SLIP_PLUS;
     event_f32_set_speed(state, coeffs, first.speed);
+    report(state, coeffs, &(struct plant_notes){.events = 0u});
 }
 
 /* Any other step, piece by piece. */
 static BASE_NOINLINE void advance_in_pieces(struct step_f32 *s, const struct step_f32_coeffs *c,
-                                            const struct event_f32_attempt *attempt, struct plant_output *output)
+                                            const struct event_f32_attempt *attempt)
 {
     struct event_f32_progress progress = {0.0f, 0.0f, 0u, 0u, false, false};
-    bool is_gap_held = false;
+    struct plant_notes notes = {.events = 0u};
 
     if (c->is_naive) {
         naive_f32_step(s, c);
@@ -72,45 +79,43 @@ static BASE_NOINLINE void advance_in_pieces(struct step_f32 *s, const struct ste
         event_f32_step(s, c, &progress, attempt);
     }
     if (attempt == NULL) {
-        is_gap_held = normal_f32_close_step(&s->normal, &c->normal);
+        notes.is_gap_held = normal_f32_close_step(&s->normal, &c->normal);
     } else if (c->normal.has_phase) {
         s->normal.y = attempt->y;
         s->normal.w = attempt->w;
     }
-    report_state(s, c, output);
-    output->stick = to_share(progress.stick);
-    output->slip_minus = to_share(progress.slip_minus);
-    output->events = (uint8_t)progress.events;
-    output->is_capped = progress.is_capped;
-    output->is_lifted = progress.is_lifted;
-    output->is_gap_held = is_gap_held;
+    notes.stick = to_share(progress.stick);
+    notes.slip_minus = to_share(progress.slip_minus);
+    notes.events = (uint8_t)progress.events;
+    notes.is_capped = progress.is_capped;
+    notes.is_lifted = progress.is_lifted;
+    report(s, c, &notes);
 }
 
 /* --- The usual step: whole, without an event ---------------------------------------------------------------------- */
 
 /* The step was tried as a whole, and for a slip up to end, and may hold an event. */
 static BASE_NOINLINE void find_event(struct step_f32 *s, const struct step_f32_coeffs *c, float y, float w, float dy,
-                                     float dw, const struct slip_f32_end *end, struct plant_output *output)
+                                     float dw, const struct slip_f32_end *end)
 {
     const struct event_f32_attempt attempt = {y, w, dy, dw, end};
 
-    advance_in_pieces(s, c, &attempt, output);
+    advance_in_pieces(s, c, &attempt);
 }
 
 BASE_INLINE void find_event_in(struct step_f32 *s, const struct step_f32_coeffs *c,
-                               const struct normal_f32_piece *piece, bool has_phase, const struct slip_f32_end *end,
-                               struct plant_output *output)
+                               const struct normal_f32_piece *piece, bool has_phase, const struct slip_f32_end *end)
 {
     if (has_phase) {
-        find_event(s, c, piece->y, piece->w, piece->y - s->normal.y, piece->w - s->normal.w, end, output);
+        find_event(s, c, piece->y, piece->w, piece->y - s->normal.y, piece->w - s->normal.w, end);
     } else {
-        find_event(s, c, piece->y, piece->w, piece->dy, piece->dw, end, output);
+        find_event(s, c, piece->y, piece->w, piece->dy, piece->dw, end);
     }
 }
 
 /* Moves on to the end of the step and reports it. */
 BASE_INLINE void finish(struct step_f32 *s, const struct step_f32_coeffs *c, const struct normal_f32_piece *piece,
-                        bool has_phase, bool is_pressed, struct plant_output *output)
+                        bool has_phase, bool is_pressed)
 {
     if (has_phase) {
         s->normal.y = piece->y;
@@ -118,11 +123,12 @@ BASE_INLINE void finish(struct step_f32 *s, const struct step_f32_coeffs *c, con
     } else {
         normal_f32_move(&s->normal, piece);
     }
-    report_state(s, c, output);
-    output->events = 0u;
-    output->is_capped = false;
-    output->is_gap_held = false;
-    output->is_lifted = !is_pressed && s->normal.y < 0.0f;
+    report_state(s, c);
+    if (!is_pressed && s->normal.y < 0.0f) {
+        s->output.noted = plant_notes(&s->output);
+        s->output.noted.is_lifted = true;
+        s->output.has_notes = true;
+    }
 }
 
 /* May the slip end inside the step? Asked of the signs alone: one way or the other vr is beyond 0 at the end, or on the
@@ -137,7 +143,7 @@ BASE_INLINE bool may_cross(float disc, float v, const struct slip_f32_end *end, 
 }
 
 BASE_INLINE void slip_whole(struct step_f32 *s, const struct step_f32_coeffs *c, const struct normal_f32_piece *piece,
-                            bool has_phase, bool has_floor, bool is_pressed, struct plant_output *output)
+                            bool has_phase, bool has_floor, bool is_pressed)
 {
     const int8_t mode = s->mode;
     struct slip_f32_end end;
@@ -146,39 +152,32 @@ BASE_INLINE void slip_whole(struct step_f32 *s, const struct step_f32_coeffs *c,
     if (BASE_UNLIKELY(may_cross(s->disc, s->v, &end, mode))) {
         const struct slip_f32_end reached = end;
 
-        find_event_in(s, c, piece, has_phase, &reached, output);
+        find_event_in(s, c, piece, has_phase, &reached);
         return;
     }
     move_x(s, end.dx);
     s->v = end.v;
-    finish(s, c, piece, has_phase, is_pressed, output);
-    output->mode = mode;
-    output->stick = 0u;
-    output->slip_minus = (uint32_t)mode & PLANT_SHARE_ONE; /* of -1 the bit is set, of 1 not */
+    finish(s, c, piece, has_phase, is_pressed);
 }
 
 /* The step is whole if friction still holds the pad at its end. */
 BASE_INLINE void stick_whole(struct step_f32 *s, const struct step_f32_coeffs *c, const struct normal_f32_piece *piece,
-                             bool has_phase, bool is_pressed, struct plant_output *output)
+                             bool has_phase, bool is_pressed)
 {
     const float dx = c->whole.travel * s->disc;
     const float need = stick_need(c, s->x + dx, s->disc);
     const float p = is_pressed ? piece->y : normal_f32_force(&s->normal, piece->y);
 
     if (BASE_UNLIKELY(!(fmath_abs(need) <= c->whole.friction * p))) {
-        find_event_in(s, c, piece, has_phase, NULL, output);
+        find_event_in(s, c, piece, has_phase, NULL);
         return;
     }
     move_x(s, dx);
-    finish(s, c, piece, has_phase, is_pressed, output);
-    output->mode = PLANT_STICK;
-    output->stick = PLANT_SHARE_ONE;
-    output->slip_minus = 0u;
+    finish(s, c, piece, has_phase, is_pressed);
 }
 
 /* The contact may pull, or not press: y < 0 now or then. */
-BASE_INLINE void advance_whole(struct step_f32 *s, const struct step_f32_coeffs *c, bool has_phase, bool has_floor,
-                               struct plant_output *output)
+BASE_INLINE void advance_whole(struct step_f32 *s, const struct step_f32_coeffs *c, bool has_phase, bool has_floor)
 {
     struct normal_f32_piece piece;
 
@@ -190,100 +189,84 @@ BASE_INLINE void advance_whole(struct step_f32 *s, const struct step_f32_coeffs 
         normal_f32_look_rk4(&s->normal, &c->normal, c->normal.step, 1.0f, &piece);
     }
     if (s->mode == PLANT_STICK) {
-        stick_whole(s, c, &piece, has_phase, false, output);
+        stick_whole(s, c, &piece, has_phase, false);
         return;
     }
     if (has_phase || c->normal.is_exact) {
         normal_f32_look_middle(&s->normal, &c->normal, &piece);
     }
     normal_f32_press(&s->normal, &piece);
-    slip_whole(s, c, &piece, has_phase, has_floor, false, output);
+    slip_whole(s, c, &piece, has_phase, has_floor, false);
 }
 
-static BASE_NOINLINE void advance_phase_floor(struct step_f32 *s, const struct step_f32_coeffs *c,
-                                              struct plant_output *output)
+static BASE_NOINLINE void advance_phase_floor(struct step_f32 *s, const struct step_f32_coeffs *c)
 {
-    advance_whole(s, c, true, true, output);
+    advance_whole(s, c, true, true);
 }
 
-static BASE_NOINLINE void advance_map(struct step_f32 *s, const struct step_f32_coeffs *c, struct plant_output *output)
+static BASE_NOINLINE void advance_map(struct step_f32 *s, const struct step_f32_coeffs *c)
 {
-    advance_whole(s, c, false, false, output);
+    advance_whole(s, c, false, false);
 }
 
-static BASE_NOINLINE void advance_map_floor(struct step_f32 *s, const struct step_f32_coeffs *c,
-                                            struct plant_output *output)
+static BASE_NOINLINE void advance_map_floor(struct step_f32 *s, const struct step_f32_coeffs *c)
 {
-    advance_whole(s, c, false, true, output);
+    advance_whole(s, c, false, true);
 }
 
-static BASE_NOINLINE void advance_unpressed(struct step_f32 *s, const struct step_f32_coeffs *c,
-                                            struct plant_output *output)
+static BASE_NOINLINE void advance_unpressed(struct step_f32 *s, const struct step_f32_coeffs *c)
 {
-    advance_whole(s, c, true, false, output);
+    advance_whole(s, c, true, false);
 }
 
 /* The same for the paper's set and a pad that is pressed on the disc throughout, as signs alone can tell. */
-BASE_INLINE void advance_plain(struct step_f32 *s, const struct step_f32_coeffs *c, uint32_t phase,
-                               struct plant_output *output)
+BASE_INLINE void advance_plain(struct step_f32 *s, const struct step_f32_coeffs *c, uint32_t phase)
 {
     struct normal_f32_piece piece;
 
     normal_f32_at(&s->normal, phase, &piece.y, &piece.w);
     if (s->mode == PLANT_STICK) {
         if (BASE_LIKELY((int32_t)fmath_bits(piece.y) >= 0)) {
-            stick_whole(s, c, &piece, true, true, output);
+            stick_whole(s, c, &piece, true, true);
             return;
         }
     } else {
         normal_f32_look_middle(&s->normal, &c->normal, &piece);
         if (BASE_LIKELY((int32_t)(fmath_bits(piece.p1) | fmath_bits(piece.p2) | fmath_bits(piece.p4)) >= 0)) {
-            slip_whole(s, c, &piece, true, false, true, output);
+            slip_whole(s, c, &piece, true, false, true);
             return;
         }
     }
-    advance_unpressed(s, c, output);
+    advance_unpressed(s, c);
 }
 
 /* ------------------------------------------------------------------------------------------------------------------ */
 
 /* Nothing is kept across what is called here, so that no register needs to be saved before it is known what. */
-BASE_INLINE void advance(struct step_f32 *s, const struct step_f32_coeffs *c, struct plant_output *output)
+void step_f32_advance(struct step_f32 *state, const struct step_f32_coeffs *coeffs)
 {
-    const uint32_t phase = normal_f32_open_step(&s->normal, &c->normal);
+    const uint32_t phase = normal_f32_open_step(&state->normal, &coeffs->normal);
 
-    if (BASE_LIKELY(c->is_plain)) {
-        advance_plain(s, c, phase, output);
-    } else if (!c->may_be_whole) {
-        advance_in_pieces(s, c, NULL, output);
-    } else if (c->normal.has_phase) {
-        advance_phase_floor(s, c, output);
-    } else if (c->has_floor) {
-        advance_map_floor(s, c, output);
+    if (BASE_LIKELY(coeffs->is_plain)) {
+        advance_plain(state, coeffs, phase);
+    } else if (!coeffs->may_be_whole) {
+        advance_in_pieces(state, coeffs, NULL);
+    } else if (coeffs->normal.has_phase) {
+        advance_phase_floor(state, coeffs);
+    } else if (coeffs->has_floor) {
+        advance_map_floor(state, coeffs);
     } else {
-        advance_map(s, c, output);
+        advance_map(state, coeffs);
     }
 }
 
-static BASE_NOINLINE void advance_anew(struct step_f32 *s, const struct step_f32_coeffs *c, float load, float speed,
-                                       struct plant_output *output)
+void step_f32_set_input(struct step_f32 *state, const struct step_f32_coeffs *coeffs, struct step_f32_input input)
 {
-    if (load != s->normal.n) {
-        normal_f32_set_load(&s->normal, &c->normal, load);
+    if (input.load != state->normal.n) {
+        normal_f32_set_load(&state->normal, &coeffs->normal, input.load);
     }
-    if (speed != s->disc) {
-        event_f32_set_speed(s, c, speed);
-    }
-    advance(s, c, output);
-}
-
-void step_f32_advance(struct step_f32 *state, const struct step_f32_coeffs *coeffs, float load, float speed,
-                      struct plant_output *output)
-{
-    if (BASE_UNLIKELY(load != state->normal.n || speed != state->disc)) {
-        advance_anew(state, coeffs, load, speed, output);
-    } else {
-        advance(state, coeffs, output);
+    if (input.speed != state->disc) {
+        event_f32_set_speed(state, coeffs, input.speed);
     }
 }
 

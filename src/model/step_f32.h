@@ -42,22 +42,22 @@ struct step_f32 {
     float disc;   /* disc speed held over the present step */
     int8_t mode;  /* enum plant_mode */
     struct normal_f32 normal;
+    struct plant_output output; /* of the last step */
 };
 
 /* Coefficients of a set whose scale has been derived. [MAIN] */
 void step_f32_configure(struct step_f32_coeffs *coeffs, const struct params *params, const struct scale *scale);
 
-/* Initial state of the set under the first input. [ANY] */
+/* Initial state of the set under the first input, with nothing having happened. [ANY] */
 void step_f32_reset(struct step_f32 *state, const struct step_f32_coeffs *coeffs, const struct params *params,
                     const struct scale *scale, struct step_f32_input first);
 
-/* Advances by one step h and reports it. Cost: one RK4 step, and at most 1 + 2 (PLANT_EVENTS_MAX + PLANT_CONTACTS_MAX)
- * where regimes switch. [ISR] */
-void step_f32_advance(struct step_f32 *state, const struct step_f32_coeffs *coeffs, float load, float speed,
-                      struct plant_output *output);
+/* What is held over the steps to come. [ISR] */
+void step_f32_set_input(struct step_f32 *state, const struct step_f32_coeffs *coeffs, struct step_f32_input input);
 
-/* The state as it stands, with nothing having happened. [ANY] */
-void step_f32_report(const struct step_f32 *state, const struct step_f32_coeffs *coeffs, struct plant_output *output);
+/* Advances by one step h. Cost: one RK4 step, and at most 1 + 2 (PLANT_EVENTS_MAX + PLANT_CONTACTS_MAX) where regimes
+ * switch. [ISR] */
+void step_f32_advance(struct step_f32 *state, const struct step_f32_coeffs *coeffs);
 
 /* Friction force on the pad in the unit m wn Vref: mu P sgn(vr) while slipping, what holds the pad while sticking. */
 float step_f32_friction(const struct step_f32 *state, const struct step_f32_coeffs *coeffs);

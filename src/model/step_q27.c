@@ -80,6 +80,22 @@ void step_q27_configure(struct step_q27_coeffs *coeffs, const struct params *par
     coeffs->damping_q24 = fixed_from_float(scale->damping, 24);
 }
 
+/* Of an unusual step; a usual one writes its own. */
+static void report(struct step_q27 *s, const struct plant_notes *notes)
+{
+    struct plant_output *output = &s->output;
+
+    output->x = s->x;
+    output->v = s->v;
+    output->y = s->normal.y;
+    output->w = s->normal.w;
+    output->disc = s->disc;
+    output->mode = s->mode;
+    output->has_notes = true;
+    output->noted = *notes;
+    output->noted.is_saturated = s->is_saturated;
+}
+
 void step_q27_reset(struct step_q27 *state, const struct step_q27_coeffs *coeffs, const struct params *params,
                     const struct scale *scale, struct step_q27_input first)
 {
@@ -96,125 +112,102 @@ void step_q27_reset(struct step_q27 *state, const struct step_q27_coeffs *coeffs
     state->disc = state->v;
     event_q27_enter(state, PLANT_SLIP_PLUS);
     event_q27_set_speed(state, coeffs, first.speed);
-}
-
-BASE_INLINE void report(const struct step_q27 *s, int8_t mode, struct plant_output *output)
-{
-    output->x = s->x;
-    output->v = s->v;
-    output->y = s->normal.y;
-    output->w = s->normal.w;
-    output->disc = s->disc;
-    output->stick = 0u;
-    output->slip_minus = 0u;
-    output->mode = mode;
-    output->events = 0u;
-    output->is_capped = false;
-    output->is_saturated = false;
-    output->is_lifted = false;
-    output->is_gap_held = false;
-}
-
-void step_q27_report(const struct step_q27 *state, struct plant_output *output)
-{
-    report(state, state->mode, output);
-    output->is_saturated = state->is_saturated;
+    step_q27_adopt(state, coeffs);
+    report(state, &(struct plant_notes){.events = 0u});
 }
 
 static BASE_NOINLINE void advance_in_pieces(struct step_q27 *s, const struct step_q27_coeffs *c,
-                                            const struct event_q27_attempt *attempt, struct plant_output *output)
+                                            const struct event_q27_attempt *attempt)
 {
-    struct event_q27_progress progress = {0u, 0u, 0u, 0u, false, false};
-    bool is_gap_held = false;
+    struct event_q27_progress progress = {.contacts = 0u};
 
     if (c->is_naive) {
-        naive_q27_step(s, c, &progress);
+        naive_q27_step(s, c, &progress.notes);
     } else {
         event_q27_step(s, c, &progress, attempt);
     }
     if (attempt == NULL) {
-        is_gap_held = normal_q27_close_step(&s->normal, &c->normal, &s->is_saturated);
+        progress.notes.is_gap_held = normal_q27_close_step(&s->normal, &c->normal, &s->is_saturated);
     }
-    report(s, s->mode, output);
-    output->stick = progress.stick;
-    output->slip_minus = progress.slip_minus;
-    output->events = (uint8_t)progress.events;
-    output->is_capped = progress.is_capped;
-    output->is_saturated = s->is_saturated;
-    output->is_lifted = progress.is_lifted;
-    output->is_gap_held = is_gap_held;
+    report(s, &progress.notes);
 }
 
 /* --- The usual step: whole, without an event, everything within the bounds of the fine arithmetic ----------------- */
 
 /* The step was tried as a whole, up to y, w and for a slip up to end, and may hold an event. */
 static BASE_NOINLINE void find_event(struct step_q27 *s, const struct step_q27_coeffs *c, int32_t y, int32_t w,
-                                     const struct slip_q27_end *end, struct plant_output *output)
+                                     const struct slip_q27_end *end)
 {
     const struct event_q27_attempt attempt = {y, w, end};
 
-    advance_in_pieces(s, c, &attempt, output);
+    advance_in_pieces(s, c, &attempt);
+}
+
+/* The end of a whole step, x and v as given: forward or not, the same state as seen from here. */
+BASE_INLINE void finish(struct step_q27 *s, int8_t mode, const struct normal_q27_piece *piece, bool is_pressed)
+{
+    struct plant_output *output = &s->output;
+
+    normal_q27_move(&s->normal, piece);
+    output->x = s->x;
+    output->v = s->v;
+    output->y = piece->y;
+    output->w = piece->w;
+    output->mode = mode;
+    output->has_notes = false;
+    if (!is_pressed && piece->y < 0) {
+        output->noted = plant_notes(output);
+        output->noted.is_lifted = true;
+        output->has_notes = true;
+    }
 }
 
 /* An event may lie in the step, where this test does not exclude it, which is that of event_q27.c: a curve that stays
  * above its first tangent stays above 0 when the tangent does. */
 BASE_INLINE void slip_whole(struct step_q27 *s, const struct step_q27_coeffs *c, const struct normal_q27_piece *piece,
-                            bool is_exact, bool has_floor, bool is_pressed, struct plant_output *output)
+                            bool is_exact, bool has_floor, bool is_turned, bool is_pressed)
 {
-    const bool is_turned = s->mode < 0;
-    struct slip_q27_view view = {s->x, s->v, s->disc, 0};
+    struct slip_q27_view view = {s->x, s->v, s->disc, s->turning.drive};
     struct slip_q27_end end;
 
     if (is_turned) {
-        view = (struct slip_q27_view){-s->x, -s->v, -s->disc, 0};
+        view = (struct slip_q27_view){-s->x, -s->v, -s->disc, slip_q27_drive(&c->fine, -s->disc, NULL)};
     }
-    view.drive = slip_q27_drive(&c->fine, view.disc, NULL);
     slip_q27_go_fine(&c->fine, &view, &s->rest, piece, &end, is_exact, has_floor);
     if (BASE_UNLIKELY(end.v > view.disc || (view.disc - view.v <= end.first && view.v < view.disc))) {
         const struct slip_q27_end reached = end;
 
-        find_event(s, c, piece->y, piece->w, &reached, output);
+        find_event(s, c, piece->y, piece->w, &reached);
         return;
     }
-    s->x = end.x;
-    s->v = end.v;
+    s->x = is_turned ? -end.x : end.x;
+    s->v = is_turned ? -end.v : end.v;
     s->rest = end.rest;
-    normal_q27_move(&s->normal, piece);
-    report(s, PLANT_SLIP_PLUS, output);
-    if (is_turned) {
-        output->x = s->x = -end.x;
-        output->v = s->v = -end.v;
-        output->mode = PLANT_SLIP_MINUS;
-        output->slip_minus = PLANT_SHARE_ONE;
-    }
-    output->is_lifted = !is_pressed && piece->y < 0;
+    finish(s, is_turned ? PLANT_SLIP_MINUS : PLANT_SLIP_PLUS, piece, is_pressed);
 }
 
 /* The step is whole if friction still holds the pad at its end. Asked of the upper words alone, which now and then
  * calls for help without need. */
 BASE_INLINE void stick_whole(struct step_q27 *s, const struct step_q27_coeffs *c, const struct normal_q27_piece *piece,
-                             bool is_pressed, struct plant_output *output)
+                             bool is_pressed)
 {
-    const int32_t x = s->x + fixed_product(c->wide.travel, s->disc, 32u);
+    const int32_t x = s->x + s->turning.carry;
     const int32_t p = is_pressed ? piece->y : normal_q27_force(&s->normal, piece->y);
     const int32_t limit = fixed_sum_of(c->wide.friction, p).high - 1;
-    struct fixed_sum pull = fixed_sum_of(c->wide.spring, x);
+    struct fixed_sum pull = s->turning.resists;
 
-    fixed_sum_add(&pull, c->drag, s->disc);
+    fixed_sum_add(&pull, c->wide.spring, x);
     if (BASE_UNLIKELY(((limit - pull.high) | (limit + pull.high)) < 0)) {
-        find_event(s, c, piece->y, piece->w, NULL, output);
+        find_event(s, c, piece->y, piece->w, NULL);
         return;
     }
     s->x = x;
-    normal_q27_move(&s->normal, piece);
-    report(s, PLANT_STICK, output);
-    output->stick = PLANT_SHARE_ONE;
-    output->is_lifted = !is_pressed && piece->y < 0;
+    finish(s, PLANT_STICK, piece, is_pressed);
 }
 
 /* The contact may pull, or not press: y < 0 now or then. */
 BASE_INLINE void advance_tame(struct step_q27 *s, const struct step_q27_coeffs *c, bool has_phase, bool is_exact,
-                              bool has_floor, struct plant_output *output)
+                              bool has_floor)
 {
     struct normal_q27_piece piece;
 
@@ -224,52 +217,53 @@ BASE_INLINE void advance_tame(struct step_q27 *s, const struct step_q27_coeffs *
         normal_q27_look_end(&s->normal, &c->normal.full, &piece, NULL);
     }
     if (s->mode == PLANT_STICK) {
-        stick_whole(s, c, &piece, false, output);
+        stick_whole(s, c, &piece, false);
         return;
     }
     normal_q27_look_stages(&s->normal, &c->normal, is_exact, &piece, NULL);
     normal_q27_press(&s->normal, &piece);
-    slip_whole(s, c, &piece, is_exact, has_floor, false, output);
+    slip_whole(s, c, &piece, is_exact, has_floor, s->mode < 0, false);
 }
 
-static BASE_NOINLINE void advance_tame_phase(struct step_q27 *s, const struct step_q27_coeffs *c,
-                                             struct plant_output *output)
+static BASE_NOINLINE void advance_tame_phase(struct step_q27 *s, const struct step_q27_coeffs *c)
 {
-    advance_tame(s, c, true, true, c->has_floor, output);
+    advance_tame(s, c, true, true, c->has_floor);
 }
 
-static BASE_NOINLINE void advance_tame_map(struct step_q27 *s, const struct step_q27_coeffs *c,
-                                           struct plant_output *output)
+static BASE_NOINLINE void advance_tame_map(struct step_q27 *s, const struct step_q27_coeffs *c)
 {
-    advance_tame(s, c, false, false, false, output);
+    advance_tame(s, c, false, false, false);
 }
 
-static BASE_NOINLINE void advance_tame_floor(struct step_q27 *s, const struct step_q27_coeffs *c,
-                                             struct plant_output *output)
+static BASE_NOINLINE void advance_tame_floor(struct step_q27 *s, const struct step_q27_coeffs *c)
 {
-    advance_tame(s, c, false, false, true, output);
+    advance_tame(s, c, false, false, true);
 }
 
 /* The same for the paper's set and a pad that is pressed on the disc throughout, as signs alone can tell. */
-static BASE_NOINLINE void advance_plain(struct step_q27 *s, const struct step_q27_coeffs *c, uint32_t index,
-                                        struct plant_output *output)
+static BASE_NOINLINE void stick_plain(struct step_q27 *s, const struct step_q27_coeffs *c, uint32_t index)
 {
     struct normal_q27_piece piece;
 
     normal_q27_at(&s->normal, index, &piece.y, &piece.w, NULL);
-    if (s->mode == PLANT_STICK) {
-        if (BASE_LIKELY(piece.y >= 0)) {
-            stick_whole(s, c, &piece, true, output);
-            return;
-        }
+    if (BASE_LIKELY(piece.y >= 0)) {
+        stick_whole(s, c, &piece, true);
     } else {
-        normal_q27_look_stages(&s->normal, &c->normal, true, &piece, NULL);
-        if (BASE_LIKELY((piece.p1 | piece.p2 | piece.p4) >= 0)) {
-            slip_whole(s, c, &piece, true, false, true, output);
-            return;
-        }
+        advance_tame_phase(s, c);
     }
-    advance_tame_phase(s, c, output);
+}
+
+static BASE_NOINLINE void slip_plain(struct step_q27 *s, const struct step_q27_coeffs *c, uint32_t index)
+{
+    struct normal_q27_piece piece;
+
+    normal_q27_at(&s->normal, index, &piece.y, &piece.w, NULL);
+    normal_q27_look_stages(&s->normal, &c->normal, true, &piece, NULL);
+    if (BASE_LIKELY((piece.p1 | piece.p2 | piece.p4) >= 0)) {
+        slip_whole(s, c, &piece, true, false, false, true);
+    } else {
+        advance_tame_phase(s, c);
+    }
 }
 
 /* |x| and |v| below 2, and a normal motion that stays within what the fine arithmetic serves. */
@@ -280,46 +274,54 @@ BASE_INLINE bool is_tame(const struct step_q27 *s, int32_t reach_max)
     return s->normal.reach < reach_max && size < 2u * TAME_LIMIT;
 }
 
+static BASE_NOINLINE void advance_other(struct step_q27 *s, const struct step_q27_coeffs *c)
+{
+    if (!is_tame(s, c->reach_max)) {
+        advance_in_pieces(s, c, NULL);
+    } else if (c->normal.has_phase) {
+        advance_tame_phase(s, c);
+    } else if (c->has_floor) {
+        advance_tame_floor(s, c);
+    } else {
+        advance_tame_map(s, c);
+    }
+}
+
 /* ------------------------------------------------------------------------------------------------------------------ */
 
 /* Nothing is kept across what is called here, so that no register needs to be saved before it is known what. */
-BASE_INLINE void advance(struct step_q27 *s, const struct step_q27_coeffs *c, struct plant_output *output)
+void step_q27_advance(struct step_q27 *state, const struct step_q27_coeffs *coeffs)
 {
-    const uint32_t index = normal_q27_open_step(&s->normal, &c->normal);
+    const uint32_t index = normal_q27_open_step(&state->normal, &coeffs->normal);
 
-    if (BASE_LIKELY(is_tame(s, c->reach_plain))) {
-        advance_plain(s, c, index, output);
-    } else if (!is_tame(s, c->reach_max)) {
-        advance_in_pieces(s, c, NULL, output);
-    } else if (c->normal.has_phase) {
-        advance_tame_phase(s, c, output);
-    } else if (c->has_floor) {
-        advance_tame_floor(s, c, output);
+    if (BASE_UNLIKELY(!is_tame(state, coeffs->reach_plain) || state->mode == PLANT_SLIP_MINUS)) {
+        advance_other(state, coeffs);
+    } else if (state->mode == PLANT_STICK) {
+        stick_plain(state, coeffs, index);
     } else {
-        advance_tame_map(s, c, output);
+        slip_plain(state, coeffs, index);
     }
 }
 
-static BASE_NOINLINE void advance_anew(struct step_q27 *s, const struct step_q27_coeffs *c, int32_t load, int32_t speed,
-                                       struct plant_output *output)
+void step_q27_set_input(struct step_q27 *state, const struct step_q27_coeffs *coeffs, struct step_q27_input input)
 {
-    if (load != s->normal.n) {
-        normal_q27_set_load(&s->normal, &c->normal, load, &s->is_saturated);
+    if (input.load != state->normal.n) {
+        normal_q27_set_load(&state->normal, &coeffs->normal, input.load, &state->is_saturated);
     }
-    if (speed != s->disc) {
-        event_q27_set_speed(s, c, speed);
+    if (input.speed != state->disc) {
+        event_q27_set_speed(state, coeffs, input.speed);
+        state->output.disc = input.speed;
+        step_q27_adopt(state, coeffs);
     }
-    advance(s, c, output);
 }
 
-void step_q27_advance(struct step_q27 *state, const struct step_q27_coeffs *coeffs, int32_t load, int32_t speed,
-                      struct plant_output *output)
+void step_q27_adopt(struct step_q27 *state, const struct step_q27_coeffs *coeffs)
 {
-    if (BASE_UNLIKELY(load != state->normal.n || speed != state->disc)) {
-        advance_anew(state, coeffs, load, speed, output);
-    } else {
-        advance(state, coeffs, output);
-    }
+    struct step_q27_turning *turning = &state->turning;
+
+    turning->carry = fixed_product(coeffs->wide.travel, state->disc, 32u);
+    turning->drive = coeffs->reach_max > 0 ? slip_q27_drive(&coeffs->fine, state->disc, NULL) : 0;
+    turning->resists = fixed_sum_of(coeffs->drag, state->disc);
 }
 
 int32_t step_q27_friction(const struct step_q27 *state, const struct step_q27_coeffs *coeffs)

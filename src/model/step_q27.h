@@ -32,29 +32,41 @@ struct step_q27_input {
     int32_t load, speed;
 };
 
+/* What a step needs of the disc's speed under the present coefficients: the same in every step until one of them
+ * changes. */
+struct step_q27_turning {
+    int32_t carry;            /* x in a step while the pad sticks */
+    int32_t drive;            /* h (mu + eps disc), what drives a pad that slips forward, in the format of fine */
+    struct fixed_sum resists; /* -h C disc, what damping does to a pad that sticks; Q55 */
+};
+
 struct step_q27 {
-    int32_t x, v;      /* displacement over 2^length_shift and velocity of the pad along the disc */
+    int32_t x, v; /* displacement over 2^length_shift and velocity of the pad along the disc */
+    struct slip_q27_rest rest;
     int32_t disc;      /* disc speed held over the present step */
     int8_t mode;       /* enum plant_mode */
     bool is_saturated; /* something did not fit, now or before */
-    struct slip_q27_rest rest;
+    struct step_q27_turning turning;
     struct normal_q27 normal;
+    struct plant_output output; /* of the last step */
 };
 
 /* Coefficients of a set whose scale has been derived. [MAIN] */
 void step_q27_configure(struct step_q27_coeffs *coeffs, const struct params *params, const struct scale *scale);
 
-/* Initial state of the set under the first input. [ANY] */
+/* Initial state of the set under the first input, with nothing having happened. [ANY] */
 void step_q27_reset(struct step_q27 *state, const struct step_q27_coeffs *coeffs, const struct params *params,
                     const struct scale *scale, struct step_q27_input first);
 
-/* Advances by one step h and reports it. Cost: one RK4 step, and at most 1 + 2 (PLANT_EVENTS_MAX + PLANT_CONTACTS_MAX)
- * where regimes switch. [ISR] */
-void step_q27_advance(struct step_q27 *state, const struct step_q27_coeffs *coeffs, int32_t load, int32_t speed,
-                      struct plant_output *output);
+/* Other coefficients are in force from here on, or the state has been put back as it stood under these. [ISR] */
+void step_q27_adopt(struct step_q27 *state, const struct step_q27_coeffs *coeffs);
 
-/* The state as it stands, with nothing having happened. [ANY] */
-void step_q27_report(const struct step_q27 *state, struct plant_output *output);
+/* What is held over the steps to come. [ISR] */
+void step_q27_set_input(struct step_q27 *state, const struct step_q27_coeffs *coeffs, struct step_q27_input input);
+
+/* Advances by one step h. Cost: one RK4 step, and at most 1 + 2 (PLANT_EVENTS_MAX + PLANT_CONTACTS_MAX) where regimes
+ * switch. [ISR] */
+void step_q27_advance(struct step_q27 *state, const struct step_q27_coeffs *coeffs);
 
 /* Friction force on the pad in the unit m wn Vref, Q4.27: mu P sgn(vr) while slipping, what holds the pad while
  * sticking. */

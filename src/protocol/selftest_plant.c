@@ -108,7 +108,7 @@ static float forced_deviation(const struct selftest *selftest)
     const struct sim *sim = &selftest->sim;
     const uint32_t step_turns = 0x80000000u / selftest->plan.scale.steps_per_period * 2u; /* a power of two */
     const float unit = (float)(1u << selftest->plan.scale.length_shift) / (float)(1u << PLANT_FRACTION_BITS);
-    const float x = (float)sim->output.x * unit;
+    const float x = (float)sim_output(sim)->x * unit;
 
     return fmath_abs(x - perturbation_forced(&selftest->orbit, (uint32_t)sim->step * step_turns).x) /
            fmath_sqrt(complex32_square(selftest->orbit.harmonic[0]));

@@ -178,6 +178,17 @@ BASE_INLINE void book_acceleration(struct detector *detector, int32_t v)
     }
 }
 
+/* Forward slip, the whole step, is what is left of a period. */
+BASE_INLINE void book_shares(struct detector_frame *now, const struct plant_output *output)
+{
+    if (output->mode != PLANT_SLIP_PLUS || output->has_notes) {
+        const struct plant_notes notes = plant_notes(output);
+
+        now->stick += notes.stick;
+        now->slip_minus += notes.slip_minus;
+    }
+}
+
 BASE_INLINE void book_sample(struct detector *detector, const struct plant_output *output)
 {
     struct detector_frame *now = &detector->now;
@@ -191,10 +202,7 @@ BASE_INLINE void book_sample(struct detector *detector, const struct plant_outpu
         now->y_max = output->y;
     }
     book_acceleration(detector, v);
-    if ((output->stick | output->slip_minus) != 0u) {
-        now->stick += output->stick;
-        now->slip_minus += output->slip_minus;
-    }
+    book_shares(now, output);
     detector->v_sum += v_q16;
     detector->v_square_sum += (uint64_t)((int64_t)v_q16 * v_q16);
     if (BASE_UNLIKELY((detector->v1 ^ v) < 0) && detector->v1 != 0 && v != 0) {

@@ -47,7 +47,7 @@ static void book_velocity(struct measure *measure, const struct plant_output *ou
     const bool is_dip = measure->v1 < measure->v2 && measure->v1 <= output->v;
 
     widen(output->v, &measure->v_min, &measure->v_max);
-    measure->smooth = output->events == 0u && output->mode != PLANT_STICK ? measure->smooth + 1u : 0u;
+    measure->smooth = plant_notes(output).events == 0u && output->mode != PLANT_STICK ? measure->smooth + 1u : 0u;
     if (measure->smooth >= 2u && (is_peak || is_dip)) {
         widen(extremum_of_parabola(measure->v2, measure->v1, output->v), &measure->v_min, &measure->v_max);
     }
@@ -69,6 +69,8 @@ static void book_crossing(struct measure *measure, const struct plant_output *ou
 
 void measure_push(struct measure *measure, const struct plant_output *output)
 {
+    const struct plant_notes notes = plant_notes(output);
+
     if (!measure_is_active(measure)) {
         return;
     }
@@ -79,8 +81,8 @@ void measure_push(struct measure *measure, const struct plant_output *output)
     } else if (measure->done > measure->planned / 2u) {
         book_crossing(measure, output);
     }
-    measure->stick += output->stick;
-    measure->slip_minus += output->slip_minus;
+    measure->stick += notes.stick;
+    measure->slip_minus += notes.slip_minus;
     measure->x1 = output->x;
     measure->v2 = measure->v1;
     measure->v1 = output->v;

@@ -93,50 +93,44 @@ static void reset_plant(struct sim *sim)
 
     if (plan->arithmetic == ARITH_Q27) {
         step_q27_reset(&sim->q27, &plan->q27, &plan->params, &plan->scale, input_q27(sim));
-        step_q27_report(&sim->q27, &sim->output);
     } else {
         step_f32_reset(&sim->f32, &plan->f32, &plan->params, &plan->scale, input_f32(sim));
-        step_f32_report(&sim->f32, &plan->f32, &sim->output);
     }
 }
 
 /* Whatever leaves the domain leaves the output's range first, but for the speed, which has a limit inside it. */
 static bool may_be_outside(const struct plant_output *output)
 {
-    return output->is_saturated || fixed_abs(output->v) > SPEED_LIMIT_Q27;
+    return output->has_notes || fixed_abs(output->v) > SPEED_LIMIT_Q27;
 }
 
 static BASE_NOINLINE void advance_f32(struct sim *sim)
 {
-    const struct step_f32_input input = input_f32(sim);
-
-    step_f32_advance(&sim->f32, &sim->plan->f32, input.load, input.speed, &sim->output);
+    step_f32_set_input(&sim->f32, &sim->plan->f32, input_f32(sim));
+    step_f32_advance(&sim->f32, &sim->plan->f32);
 }
 
 static BASE_NOINLINE void advance_q27(struct sim *sim)
 {
-    const struct step_q27_input input = input_q27(sim);
-
-    step_q27_advance(&sim->q27, &sim->plan->q27, input.load, input.speed, &sim->output);
+    step_q27_set_input(&sim->q27, &sim->plan->q27, input_q27(sim));
+    step_q27_advance(&sim->q27, &sim->plan->q27);
 }
 
 /* Under the load and the speed of the step before. */
-BASE_INLINE void advance_alike(struct sim *sim)
+BASE_INLINE const struct plant_output *advance_alike(struct sim *sim)
 {
-    struct step_q27 *const q27 = &sim->q27;
-    struct step_f32 *const f32 = &sim->f32;
-
     if (sim->plan->arithmetic == ARITH_Q27) {
-        step_q27_advance(q27, &sim->plan->q27, q27->normal.n, q27->disc, &sim->output);
-    } else {
-        step_f32_advance(f32, &sim->plan->f32, f32->normal.n, f32->disc, &sim->output);
+        step_q27_advance(&sim->q27, &sim->plan->q27);
+        return &sim->q27.output;
     }
+    step_f32_advance(&sim->f32, &sim->plan->f32);
+    return &sim->f32.output;
 }
 
 static bool is_outside(const struct sim *sim)
 {
     return sim->plan->arithmetic == ARITH_Q27 ? step_q27_is_outside(&sim->q27)
-                                              : may_be_outside(&sim->output) && step_f32_is_outside(&sim->f32);
+                                              : may_be_outside(&sim->f32.output) && step_f32_is_outside(&sim->f32);
 }
 
 /* The states as words, in the order in which they are hashed. */
@@ -189,7 +183,7 @@ void sim_reset(struct sim *sim, const struct sim_plan *plan)
     acting_reset(&sim->load, &plan->load);
     acting_reset(&sim->speed, &plan->speed);
     reset_plant(sim);
-    detector_reset(&sim->detector, &plan->detector, &sim->output);
+    detector_reset(&sim->detector, &plan->detector, sim_output(sim));
 }
 
 /* The place inside the step is by a straight line: a diverging plant needs many steps to pass the mark. */
@@ -204,33 +198,33 @@ static BASE_NOINLINE void book_v10(struct sim *sim, uint32_t before, uint32_t no
 }
 
 /* The disc's speed is within 1 but for rounding, and ten times that fits. */
-static uint32_t v10_limit(const struct sim *sim) { return fixed_abs(sim->output.disc) * V10_RATIO; }
+static uint32_t v10_limit(const struct sim *sim) { return fixed_abs(sim_output(sim)->disc) * V10_RATIO; }
 
-static void watch_v10(struct sim *sim, int32_t v_before)
+static void watch_v10(struct sim *sim)
 {
     const uint32_t limit = v10_limit(sim);
-    const uint32_t now = fixed_abs(sim->output.v);
+    const uint32_t now = fixed_abs(sim_output(sim)->v);
 
     if (now > limit) {
-        book_v10(sim, fixed_abs(v_before), now, limit);
+        book_v10(sim, fixed_abs(sim->detector.v1), now, limit);
     }
 }
 
 static void count_events(struct sim *sim)
 {
-    const struct plant_output *output = &sim->output;
+    const struct plant_notes notes = plant_notes(sim_output(sim));
 
-    sim->counters.events += output->events;
-    sim->counters.caps += output->is_capped;
-    sim->counters.saturations += output->is_saturated;
-    sim->counters.lifted += output->is_lifted;
-    sim->counters.gap_held += output->is_gap_held;
+    sim->counters.events += notes.events;
+    sim->counters.caps += notes.is_capped;
+    sim->counters.saturations += notes.is_saturated;
+    sim->counters.lifted += notes.is_lifted;
+    sim->counters.gap_held += notes.is_gap_held;
 }
 
 /* Books what a step has brought. Returns false when the plant has left its domain with it: then it stands. */
-static BASE_NOINLINE bool look_closer(struct sim *sim, int32_t v_before)
+static BASE_NOINLINE bool look_closer(struct sim *sim)
 {
-    watch_v10(sim, v_before);
+    watch_v10(sim);
     count_events(sim);
     if (!is_outside(sim)) {
         return true;
@@ -263,28 +257,19 @@ static uint32_t usual_speed(const struct sim *sim)
     return limit < SPEED_LIMIT_Q27 ? limit : SPEED_LIMIT_Q27;
 }
 
-/* Most steps have nothing to count. */
-BASE_INLINE bool has_notes(const struct plant_output *output)
-{
-    return (output->events | output->is_capped | output->is_saturated | output->is_lifted | output->is_gap_held) != 0;
-}
-
 BASE_INLINE bool step_usual(struct sim *sim)
 {
-    const int32_t v_before = sim->output.v;
+    const struct plant_output *const output = advance_alike(sim);
 
-    advance_alike(sim);
-    if (BASE_UNLIKELY(has_notes(&sim->output) || fixed_abs(sim->output.v) > sim->usual_speed) &&
-        !look_closer(sim, v_before)) {
+    if (BASE_UNLIKELY(output->has_notes || fixed_abs(output->v) > sim->usual_speed) && !look_closer(sim)) {
         return true;
     }
     sim->step++;
-    return detector_push(&sim->detector, &sim->output);
+    return detector_push(&sim->detector, output);
 }
 
 static BASE_NOINLINE bool step_any(struct sim *sim)
 {
-    const int32_t v_before = sim->output.v;
     bool has_verdict;
 
     if (sim->fault != SIM_FAULT_NONE) {
@@ -295,7 +280,7 @@ static BASE_NOINLINE bool step_any(struct sim *sim)
     } else {
         advance_f32(sim);
     }
-    if (!look_closer(sim, v_before)) {
+    if (!look_closer(sim)) {
         return true;
     }
     if (sim->plan->has_state) {
@@ -303,12 +288,12 @@ static BASE_NOINLINE bool step_any(struct sim *sim)
     }
     sim->step++;
     if (sim->plan->texture.runout != 0) {
-        texture_turn(&sim->plan->texture, &sim->angle, sim->output.disc);
+        texture_turn(&sim->plan->texture, &sim->angle, sim_output(sim)->disc);
     }
-    has_verdict = !watch_is_silent(sim->watch.state) ? detector_push(&sim->detector, &sim->output)
-                                                     : detector_skip(&sim->detector, &sim->output);
+    has_verdict = !watch_is_silent(sim->watch.state) ? detector_push(&sim->detector, sim_output(sim))
+                                                     : detector_skip(&sim->detector, sim_output(sim));
     if (measure_is_active(&sim->measure)) {
-        measure_push(&sim->measure, &sim->output);
+        measure_push(&sim->measure, sim_output(sim));
     }
     sim->is_usual = will_be_usual(sim);
     sim->usual_speed = usual_speed(sim);
@@ -325,7 +310,7 @@ BASE_INLINE uint32_t hash_state(const struct sim *sim)
     hash = hash_word(hash, words[1]);
     hash = hash_word(hash, words[2]);
     hash = hash_word(hash, words[3]);
-    return hash_word(hash, (uint32_t)(int32_t)sim->output.mode);
+    return hash_word(hash, (uint32_t)(int32_t)sim_output(sim)->mode);
 }
 
 bool sim_step_unhashed(struct sim *sim) { return BASE_LIKELY(sim->is_usual) ? step_usual(sim) : step_any(sim); }
@@ -342,7 +327,7 @@ bool sim_step(struct sim *sim)
 
 void sim_measure(struct sim *sim, uint64_t steps)
 {
-    measure_start(&sim->measure, &sim->output, steps, sim->plan->detector.step_q27);
+    measure_start(&sim->measure, sim_output(sim), steps, sim->plan->detector.step_q27);
     sim->is_usual = false;
 }
 
@@ -357,7 +342,7 @@ void sim_sample(const struct sim *sim, struct sample *sample)
     sample->y = words[2];
     sample->w = words[3];
     sample_forces(sim, sample);
-    sample->mode = sim->output.mode;
+    sample->mode = sim_output(sim)->mode;
     sample->arithmetic = sim->plan->arithmetic;
     sample->propensity = sim->detector.verdict.propensity;
     sample->is_fault = sim->fault != SIM_FAULT_NONE;

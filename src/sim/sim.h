@@ -59,7 +59,6 @@ struct sim {
     const struct sim_plan *plan;
     struct step_f32 f32; /* one of the two, as the plan says */
     struct step_q27 q27;
-    struct plant_output output;
     struct acting_state load, speed; /* of what has one */
     struct input_state input;        /* of a controller, in place of the profiles */
     struct watch watch;              /* over the controller */
@@ -79,6 +78,12 @@ struct sim {
     uint64_t v10_step;
     uint32_t v10_fraction_q15;
 };
+
+/* What the last step has come to. [ISR] */
+static inline const struct plant_output *sim_output(const struct sim *sim)
+{
+    return sim->plan->arithmetic == ARITH_Q27 ? &sim->q27.output : &sim->f32.output;
+}
 
 /* Back to the initial state of the plan at step 0. The plan must outlive its use here. [ISR] */
 void sim_reset(struct sim *sim, const struct sim_plan *plan);

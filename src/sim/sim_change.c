@@ -69,13 +69,21 @@ static void lower(float *load, int32_t *load_q27, const struct sim_plan *plan)
 
 static bool is_held(const struct sim *sim) { return sim->input.holds_load || sim->input.holds_speed; }
 
+static void adopt(struct sim *sim, const struct sim_plan *plan)
+{
+    sim->plan = plan;
+    sim->is_usual = false;
+    if (plan->arithmetic == ARITH_Q27) {
+        step_q27_adopt(&sim->q27, &plan->q27);
+    }
+}
+
 void sim_apply(struct sim *sim, const struct sim_plan *plan)
 {
     struct detector_config config;
 
     hand_over(sim, plan);
-    sim->plan = plan;
-    sim->is_usual = false;
+    adopt(sim, plan);
     config = detector_config_now(sim);
     if (sim->input.holds_load && sim->input.load > plan->load_limit) {
         lower(&sim->input.load, &sim->input.load_q27, plan);
@@ -156,7 +164,6 @@ void sim_watch(struct sim *sim, const struct watch_pace *pace)
 
 void sim_resume(struct sim *sim, const struct sim_plan *plan)
 {
-    sim->plan = plan;
-    sim->is_usual = false;
+    adopt(sim, plan);
     sim->detector.config = detector_config_now(sim);
 }

@@ -174,8 +174,10 @@ bool snapshot_is_sound(const struct sim *sim, const struct input_queue *waiting,
         plan->arithmetic == ARITH_Q27 ? is_sound_q27(&sim->q27, &plan->q27) : is_sound_f32(&sim->f32);
 
     return is_sound_plant && sim->fault == SIM_FAULT_NONE && sim->step <= STEPS_MAX && sim->v10_step <= STEPS_MAX &&
-           sim->v10_fraction_q15 <= FRACTION_MAX_Q15 && is_mode(sim->output.mode) && sim->angle.rest <= REST_MAX &&
-           is_within(sim->texture, TEXTURE_MAX) && is_sound_held(sim) && is_sound_acting(&sim->load) &&
-           is_sound_acting(&sim->speed) && is_sound_waiting(waiting) && sim->measure.done <= sim->measure.planned &&
-           sim->measure.planned <= STEPS_MAX && is_sound_detector(&sim->detector, &plan->detector);
+           sim->v10_fraction_q15 <= FRACTION_MAX_Q15 &&
+           is_mode((plan->arithmetic == ARITH_Q27 ? sim->q27.output : sim->f32.output).mode) &&
+           sim->angle.rest <= REST_MAX && is_within(sim->texture, TEXTURE_MAX) && is_sound_held(sim) &&
+           is_sound_acting(&sim->load) && is_sound_acting(&sim->speed) && is_sound_waiting(waiting) &&
+           sim->measure.done <= sim->measure.planned && sim->measure.planned <= STEPS_MAX &&
+           is_sound_detector(&sim->detector, &plan->detector);
 }

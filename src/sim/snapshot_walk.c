@@ -131,19 +131,28 @@ static void walk_plant(struct snapshot_walk *walk, struct sim *sim)
 
 static void walk_output(struct snapshot_walk *walk, struct plant_output *output)
 {
+    struct plant_notes notes = {.events = 0u};
+
+    if (walk->writer != NULL) {
+        notes = plant_notes(output);
+    }
     walk_i32(walk, &output->x);
     walk_i32(walk, &output->v);
     walk_i32(walk, &output->y);
     walk_i32(walk, &output->w);
     walk_i32(walk, &output->disc);
-    walk_u32(walk, &output->stick);
-    walk_u32(walk, &output->slip_minus);
+    walk_u32(walk, &notes.stick);
+    walk_u32(walk, &notes.slip_minus);
     walk_mode(walk, &output->mode);
-    walk_u8(walk, &output->events);
-    walk_flag(walk, &output->is_capped);
-    walk_flag(walk, &output->is_saturated);
-    walk_flag(walk, &output->is_lifted);
-    walk_flag(walk, &output->is_gap_held);
+    walk_u8(walk, &notes.events);
+    walk_flag(walk, &notes.is_capped);
+    walk_flag(walk, &notes.is_saturated);
+    walk_flag(walk, &notes.is_lifted);
+    walk_flag(walk, &notes.is_gap_held);
+    if (walk->writer == NULL) {
+        output->has_notes = true;
+        output->noted = notes;
+    }
 }
 
 static void walk_sum(struct snapshot_walk *walk, struct acting_sum *sum)
@@ -333,7 +342,7 @@ void snapshot_walk_run(struct snapshot_walk *walk, struct sim *sim, struct input
     walk_u64(walk, &sim->v10_step);
     walk_u32(walk, &sim->v10_fraction_q15);
     walk_plant(walk, sim);
-    walk_output(walk, &sim->output);
+    walk_output(walk, walk->is_q27 ? &sim->q27.output : &sim->f32.output);
     walk_u64(walk, &sim->angle.turns);
     walk_u32(walk, &sim->angle.rest);
     walk_i32(walk, &sim->texture);

@@ -185,7 +185,7 @@ static void watch_onset(struct trial *trial)
         trial->flag_step = sim->step;
         trial->has_onset = !slips_on(trial);
     }
-    if (sim->output.events == 0u) {
+    if (plant_notes(sim_output(sim)).events == 0u) {
         return;
     }
     if (slips_on(trial) && !trial->has_flag) {

@@ -192,7 +192,8 @@ static void check_mirror(float arith)
     for (uint32_t i = 0u; i < plants_scaled(30000u, 3000u); i++) {
         plants_run_steps(&plant, 1u);
         plants_run_steps(&twin, 1u);
-        ok = ok && plant.sim.output.disc == -twin.sim.output.disc && plant.sim.output.x == -twin.sim.output.x &&
+        ok = ok && sim_output(&plant.sim)->disc == -sim_output(&twin.sim)->disc &&
+             sim_output(&plant.sim)->x == -sim_output(&twin.sim)->x &&
              plant.sim.speed.inertia.value == -twin.sim.speed.inertia.value &&
              plant.sim.speed.inertia.value_q56 == -twin.sim.speed.inertia.value_q56;
     }

@@ -27,8 +27,10 @@ static bool is_mirrored(const struct sim *a, const struct sim *b)
     const struct step_f32 *two = &b->f32;
 
     return one->x == -two->x && one->v == -two->v && one->disc == -two->disc && one->mode == -two->mode &&
-           one->normal.y == two->normal.y && one->normal.w == two->normal.w && a->output.x == -b->output.x &&
-           a->output.v == -b->output.v && a->output.stick == b->output.stick && a->output.events == b->output.events;
+           one->normal.y == two->normal.y && one->normal.w == two->normal.w && sim_output(a)->x == -sim_output(b)->x &&
+           sim_output(a)->v == -sim_output(b)->v &&
+           plant_notes(sim_output(a)).stick == plant_notes(sim_output(b)).stick &&
+           plant_notes(sim_output(a)).events == plant_notes(sim_output(b)).events;
 }
 
 static void check_mirror(const char *assignments, bool has_events)
@@ -158,13 +160,15 @@ static void check_random(void)
         plants_plan(&plant.plan, &params);
         sim_reset(&plant.sim, &plant.plan);
         for (uint32_t step = 0u; step < 640u; step++) {
-            const struct plant_output *output = &plant.sim.output;
+            const struct plant_output *output = sim_output(&plant.sim);
+            struct plant_notes notes;
 
             plants_run_steps(&plant, 1u);
-            is_bounded = is_bounded && output->events <= PLANT_EVENTS_MAX &&
-                         (!output->is_capped || output->events == PLANT_EVENTS_MAX) &&
-                         output->stick <= PLANT_SHARE_ONE && output->slip_minus <= PLANT_SHARE_ONE &&
-                         output->stick + output->slip_minus <= PLANT_SHARE_ONE + 1000u;
+            notes = plant_notes(output);
+            is_bounded = is_bounded && notes.events <= PLANT_EVENTS_MAX &&
+                         (!notes.is_capped || notes.events == PLANT_EVENTS_MAX) && notes.stick <= PLANT_SHARE_ONE &&
+                         notes.slip_minus <= PLANT_SHARE_ONE &&
+                         notes.stick + notes.slip_minus <= PLANT_SHARE_ONE + 1000u;
             is_told = is_told && output->mode == plant.sim.f32.mode &&
                       (output->mode != PLANT_STICK || output->v == output->disc);
         }

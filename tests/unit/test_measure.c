@@ -56,7 +56,8 @@ static void check_tone(void)
 
 static void check_shares(void)
 {
-    struct plant_output output = {.stick = PLANT_SHARE_ONE / 4, .slip_minus = PLANT_SHARE_ONE / 8};
+    struct plant_output output = {.has_notes = true,
+                                  .noted = {.stick = PLANT_SHARE_ONE / 4, .slip_minus = PLANT_SHARE_ONE / 8}};
     struct measure measure;
 
     measure_start(&measure, &output, 100u, STEP_Q27);
@@ -64,7 +65,7 @@ static void check_shares(void)
               "before the first step nothing is known");
     for (uint32_t i = 0u; i < 150u; i++) {
         measure_push(&measure, &output);
-        output.stick = i >= 99u ? PLANT_SHARE_ONE : output.stick;
+        output.noted.stick = i >= 99u ? PLANT_SHARE_ONE : output.noted.stick;
         output.x = i >= 99u ? 1000 : 0;
     }
     tap_check(measure.done == 100u && measure.x_max == 0, "what comes after the end does not count");
@@ -83,7 +84,8 @@ static void check_kinks(void)
     measure_start(&measure, &output, 9u, STEP_Q27);
     for (uint32_t i = 0u; i < 9u; i++) {
         output.v = speeds[i];
-        output.events = i == 3u ? 1u : 0u;
+        output.has_notes = i == 3u;
+        output.noted.events = i == 3u ? 1u : 0u;
         output.mode = i == 7u ? PLANT_STICK : PLANT_SLIP_PLUS;
         measure_push(&measure, &output);
     }

@@ -308,7 +308,7 @@ static void check_rest(void)
     REFUSES(step = UINT64_C(1) << 60);
     REFUSES(v10_step = UINT64_C(1) << 60);
     REFUSES(v10_fraction_q15 = 1u << 20);
-    REFUSES(output.mode = 2);
+    REFUSES(f32.output.mode = 2);
     REFUSES(angle.rest = 1u << 31);
     REFUSES(texture = 1 << 30);
     REFUSES(input.load = 2.0f);

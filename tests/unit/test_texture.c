@@ -161,7 +161,7 @@ static void check_slow(void)
     tap_check_close(fmath_from_u64(sim->angle.turns) / 18446744073709551616.0f / (1.5625e-14f * (float)SLOW_STEPS),
                     1.0f, 1e-4f, "a creeping disc does not stall");
     for (uint32_t i = 0u; i < SLOW_STEPS; i++) {
-        texture_turn(&plant.plan.texture, &sim->angle, -sim->output.disc);
+        texture_turn(&plant.plan.texture, &sim->angle, -sim_output(sim)->disc);
     }
     tap_check(sim->angle.turns == 0u && sim->angle.rest == 0u, "nor does it forget a part of a bit");
 }
@@ -199,7 +199,6 @@ static void check_peak(void)
 static uint32_t plain_hash(uint32_t steps)
 {
     struct step_f32 state;
-    struct plant_output output;
     uint32_t hash = HASH_INIT;
     const struct sim_plan *plan = &plant.plan;
 
@@ -210,7 +209,8 @@ static uint32_t plain_hash(uint32_t steps)
         if (i == 0u) {
             step_f32_reset(&state, &plan->f32, &plan->params, &plan->scale, input);
         }
-        step_f32_advance(&state, &plan->f32, input.load, input.speed, &output);
+        step_f32_set_input(&state, &plan->f32, input);
+        step_f32_advance(&state, &plan->f32);
         hash = hash_word(hash, fmath_bits(state.x));
         hash = hash_word(hash, fmath_bits(state.v));
         hash = hash_word(hash, fmath_bits(state.normal.y));
@@ -261,7 +261,7 @@ static void check_start(void)
 {
     const uint32_t many = plants_scaled(2000u, 150u);
 
-    tap_check(!starts("brake", BRAKE_3000 "arith q27 rough 0 runout 0", many) && sim->output.v == 0,
+    tap_check(!starts("brake", BRAKE_3000 "arith q27 rough 0 runout 0", many) && sim_output(sim)->v == 0,
               "in integers an unstable brake on a perfect disc locks at its equilibrium");
     tap_check(starts("groan", GROAN_1000 "arith q27", 150u), "the preset's disc starts creep groan");
     if (tap_is_hosted()) {

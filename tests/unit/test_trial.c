@@ -72,7 +72,7 @@ static void check_ride(void)
               "a pad that rides along is followed until it breaks loose and its motion dies out");
     tap_check(trial_periods(&trial) < 500.0f, "well before the end of its span");
     try_preset("table1", "y0 1 v0 0 x0 0.1 c 0.05", &usual);
-    tap_check(trial.end == TRIAL_DECAYED && trial.sim.output.v == 0, "under a stopped disc sticking is an end");
+    tap_check(trial.end == TRIAL_DECAYED && sim_output(&trial.sim)->v == 0, "under a stopped disc sticking is an end");
 }
 
 /* At resonance the forced motion creeps up to the disc's speed while its transient decays: that is no promise of

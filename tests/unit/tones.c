@@ -36,8 +36,9 @@ struct plant_output tones_output(const struct tones *bench)
     output.v = tones_q27(v + bench->carried);
     output.y = tones_q27(0.25f); /* in contact */
     output.w = tones_q27(bench->normal * fmath_sine_turns(TONES_TURN * bench->step));
-    output.stick = in_period < bench->stick_steps ? PLANT_SHARE_ONE : 0u;
-    output.slip_minus = in_period >= bench->stick_steps && in_period < minus_end ? PLANT_SHARE_ONE : 0u;
+    output.mode = in_period < bench->stick_steps ? PLANT_STICK
+                  : in_period < minus_end        ? PLANT_SLIP_MINUS
+                                                 : PLANT_SLIP_PLUS;
     return output;
 }
 

@@ -124,7 +124,9 @@ static uint32_t time_nothing(const struct subject *subject)
 
 static enum part part_of(const struct plant_output *output)
 {
-    return output->events != 0u          ? (enum part)(PART_ONE + (output->events < 3u ? output->events : 3u) - 1u)
+    const unsigned events = plant_notes(output).events;
+
+    return events != 0u                  ? (enum part)(PART_ONE + (events < 3u ? events : 3u) - 1u)
            : output->mode == PLANT_STICK ? PART_STICK
                                          : PART_SLIP;
 }

@@ -40,41 +40,31 @@ static void start_sim(const struct subject *subject)
     sim_reset(&sim, &plan);
 }
 
-const struct plant_output *subjects_output(void) { return &sim.output; }
+const struct plant_output *subjects_output(void) { return sim_output(&sim); }
 
 /* --- Steps -------------------------------------------------------------------------------------------------------- */
 
-static void no_step_f32(struct step_f32 *s, const struct step_f32_coeffs *c, float load, float speed,
-                        struct plant_output *output)
+static void no_step_f32(struct step_f32 *s, const struct step_f32_coeffs *c)
 {
     (void)s;
     (void)c;
-    (void)load;
-    (void)speed;
-    (void)output;
 }
 
-static void no_step_q27(struct step_q27 *s, const struct step_q27_coeffs *c, int32_t load, int32_t speed,
-                        struct plant_output *output)
+static void no_step_q27(struct step_q27 *s, const struct step_q27_coeffs *c)
 {
     (void)s;
     (void)c;
-    (void)load;
-    (void)speed;
-    (void)output;
 }
 
-static void (*volatile step_f32)(struct step_f32 *, const struct step_f32_coeffs *, float, float,
-                                 struct plant_output *);
-static void (*volatile step_q27)(struct step_q27 *, const struct step_q27_coeffs *, int32_t, int32_t,
-                                 struct plant_output *);
+static void (*volatile step_f32)(struct step_f32 *, const struct step_f32_coeffs *);
+static void (*volatile step_q27)(struct step_q27 *, const struct step_q27_coeffs *);
 
 static void aim_f32(bool at_nothing) { step_f32 = at_nothing ? no_step_f32 : step_f32_advance; }
 static void aim_q27(bool at_nothing) { step_q27 = at_nothing ? no_step_q27 : step_q27_advance; }
 
-static void call_f32(void) { step_f32(&sim.f32, &plan.f32, sim.f32.normal.n, sim.f32.disc, &sim.output); }
+static void call_f32(void) { step_f32(&sim.f32, &plan.f32); }
 
-static void call_q27(void) { step_q27(&sim.q27, &plan.q27, sim.q27.normal.n, sim.q27.disc, &sim.output); }
+static void call_q27(void) { step_q27(&sim.q27, &plan.q27); }
 
 /* --- The textbook ------------------------------------------------------------------------------------------------- */
 
@@ -124,7 +114,7 @@ static bool (*volatile detector_function)(struct detector *, const struct plant_
 
 static void aim_detector(bool at_nothing) { detector_function = at_nothing ? no_detector_push : detector_push; }
 
-static void call_detector(void) { (void)detector_function(&sim.detector, &sim.output); }
+static void call_detector(void) { (void)detector_function(&sim.detector, sim_output(&sim)); }
 
 static bool no_executive_tick(struct executive *which, bool is_due)
 {
