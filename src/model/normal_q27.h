@@ -129,8 +129,8 @@ static inline int32_t normal_q27_force(const struct normal_q27 *normal, int32_t 
 
 /* --- What the fast path of the step needs inline ------------------------------------------------------------------ */
 
-/* A step begins: the phase goes on to its end. Each full quarter turns the amplitudes instead. Returns the phase. */
-BASE_INLINE uint32_t normal_q27_open_step(struct normal_q27 *normal, const struct normal_q27_coeffs *coeffs)
+/* A step begins: the phase goes on to its end. Each full quarter turns the amplitudes instead. */
+BASE_INLINE void normal_q27_open_step(struct normal_q27 *normal, const struct normal_q27_coeffs *coeffs)
 {
     struct normal_q27_phase *phase = &normal->phase;
     uint32_t index = phase->index + coeffs->phase_stride;
@@ -142,7 +142,6 @@ BASE_INLINE uint32_t normal_q27_open_step(struct normal_q27 *normal, const struc
         phase->minus_cosine = -phase->cosine;
     }
     phase->index = index;
-    return index;
 }
 
 /* Displacement and velocity on the grid. */

@@ -72,7 +72,6 @@ void step_q27_configure(struct step_q27_coeffs *coeffs, const struct params *par
     coeffs->has_floor = scale->has_floor;
     coeffs->is_naive = (int)params->tangential_method == METHOD_NAIVE;
     coeffs->reach_max = coeffs->is_naive ? 0 : fine_reach(scale);
-    coeffs->reach_plain = coeffs->normal.has_phase && !scale->has_floor ? coeffs->reach_max : 0;
     coeffs->stiffness = fixed_from_float(scale->stiffness, PLANT_FRACTION_BITS + (int)scale->length_shift);
     coeffs->friction = fixed_from_float(scale->friction, PLANT_FRACTION_BITS);
     coeffs->slope = fixed_from_float(scale->friction_slope, PLANT_FRACTION_BITS);
@@ -116,6 +115,24 @@ void step_q27_reset(struct step_q27 *state, const struct step_q27_coeffs *coeffs
     report(state, &(struct plant_notes){.events = 0u});
 }
 
+/* How the steps to come are made while they are usual. It follows from what only an unusual step, an input or other
+ * coefficients may change; in pieces, if the fine arithmetic does not serve the normal motion. */
+enum way { WAY_PIECES, WAY_SLIP_PHASE, WAY_STICK_PHASE, WAY_SLIP_MAP, WAY_STICK_MAP, WAY_TAME };
+
+static uint8_t find_way(const struct step_q27 *s, const struct step_q27_coeffs *c)
+{
+    if (s->normal.reach >= c->reach_max) {
+        return WAY_PIECES;
+    }
+    if (s->mode == PLANT_SLIP_MINUS || c->has_floor) {
+        return WAY_TAME;
+    }
+    if (c->normal.has_phase) {
+        return s->mode == PLANT_STICK ? WAY_STICK_PHASE : WAY_SLIP_PHASE;
+    }
+    return s->mode == PLANT_STICK ? WAY_STICK_MAP : WAY_SLIP_MAP;
+}
+
 static BASE_NOINLINE void advance_in_pieces(struct step_q27 *s, const struct step_q27_coeffs *c,
                                             const struct event_q27_attempt *attempt)
 {
@@ -129,14 +146,22 @@ static BASE_NOINLINE void advance_in_pieces(struct step_q27 *s, const struct ste
     if (attempt == NULL) {
         progress.notes.is_gap_held = normal_q27_close_step(&s->normal, &c->normal, &s->is_saturated);
     }
+    s->way = find_way(s, c);
     report(s, &progress.notes);
 }
 
 /* --- The usual step: whole, without an event, everything within the bounds of the fine arithmetic ----------------- */
 
-/* The step was tried as a whole, up to y, w and for a slip up to end, and may hold an event. */
-static BASE_NOINLINE void find_event(struct step_q27 *s, const struct step_q27_coeffs *c, int32_t y, int32_t w,
-                                     const struct slip_q27_end *end)
+/* The step was tried as a whole, up to y, w, and may hold an event. */
+static BASE_NOINLINE void find_release(struct step_q27 *s, const struct step_q27_coeffs *c, int32_t y, int32_t w)
+{
+    const struct event_q27_attempt attempt = {y, w, NULL};
+
+    advance_in_pieces(s, c, &attempt);
+}
+
+static BASE_NOINLINE void find_crossing(struct step_q27 *s, const struct step_q27_coeffs *c, int32_t y, int32_t w,
+                                        const struct slip_q27_end *end)
 {
     const struct event_q27_attempt attempt = {y, w, end};
 
@@ -177,7 +202,7 @@ BASE_INLINE void slip_whole(struct step_q27 *s, const struct step_q27_coeffs *c,
     if (BASE_UNLIKELY(end.v > view.disc || (view.disc - view.v <= end.first && view.v < view.disc))) {
         const struct slip_q27_end reached = end;
 
-        find_event(s, c, piece->y, piece->w, &reached);
+        find_crossing(s, c, piece->y, piece->w, &reached);
         return;
     }
     s->x = is_turned ? -end.x : end.x;
@@ -198,24 +223,31 @@ BASE_INLINE void stick_whole(struct step_q27 *s, const struct step_q27_coeffs *c
 
     fixed_sum_add(&pull, c->wide.spring, x);
     if (BASE_UNLIKELY(((limit - pull.high) | (limit + pull.high)) < 0)) {
-        find_event(s, c, piece->y, piece->w, NULL);
+        find_release(s, c, piece->y, piece->w);
         return;
     }
     s->x = x;
     finish(s, PLANT_STICK, piece, is_pressed);
 }
 
+/* The end of the step, or all of it, from the integer phase or by the one-step map. */
+BASE_INLINE void look_end(const struct step_q27 *s, const struct step_q27_coeffs *c, bool has_phase,
+                          struct normal_q27_piece *piece)
+{
+    if (has_phase) {
+        normal_q27_at(&s->normal, s->normal.phase.index, &piece->y, &piece->w, NULL);
+    } else {
+        normal_q27_look_end(&s->normal, &c->normal.full, piece, NULL);
+    }
+}
+
 /* The contact may pull, or not press: y < 0 now or then. */
-BASE_INLINE void advance_tame(struct step_q27 *s, const struct step_q27_coeffs *c, bool has_phase, bool is_exact,
-                              bool has_floor)
+BASE_INLINE void advance_tame_by(struct step_q27 *s, const struct step_q27_coeffs *c, bool has_phase, bool is_exact,
+                                 bool has_floor)
 {
     struct normal_q27_piece piece;
 
-    if (has_phase) {
-        normal_q27_at(&s->normal, s->normal.phase.index, &piece.y, &piece.w, NULL);
-    } else {
-        normal_q27_look_end(&s->normal, &c->normal.full, &piece, NULL);
-    }
+    look_end(s, c, has_phase, &piece);
     if (s->mode == PLANT_STICK) {
         stick_whole(s, c, &piece, false);
         return;
@@ -227,58 +259,22 @@ BASE_INLINE void advance_tame(struct step_q27 *s, const struct step_q27_coeffs *
 
 static BASE_NOINLINE void advance_tame_phase(struct step_q27 *s, const struct step_q27_coeffs *c)
 {
-    advance_tame(s, c, true, true, c->has_floor);
+    advance_tame_by(s, c, true, true, c->has_floor);
 }
 
 static BASE_NOINLINE void advance_tame_map(struct step_q27 *s, const struct step_q27_coeffs *c)
 {
-    advance_tame(s, c, false, false, false);
+    advance_tame_by(s, c, false, false, false);
 }
 
 static BASE_NOINLINE void advance_tame_floor(struct step_q27 *s, const struct step_q27_coeffs *c)
 {
-    advance_tame(s, c, false, false, true);
+    advance_tame_by(s, c, false, false, true);
 }
 
-/* The same for the paper's set and a pad that is pressed on the disc throughout, as signs alone can tell. */
-static BASE_NOINLINE void stick_plain(struct step_q27 *s, const struct step_q27_coeffs *c, uint32_t index)
+static BASE_NOINLINE void advance_tame(struct step_q27 *s, const struct step_q27_coeffs *c)
 {
-    struct normal_q27_piece piece;
-
-    normal_q27_at(&s->normal, index, &piece.y, &piece.w, NULL);
-    if (BASE_LIKELY(piece.y >= 0)) {
-        stick_whole(s, c, &piece, true);
-    } else {
-        advance_tame_phase(s, c);
-    }
-}
-
-static BASE_NOINLINE void slip_plain(struct step_q27 *s, const struct step_q27_coeffs *c, uint32_t index)
-{
-    struct normal_q27_piece piece;
-
-    normal_q27_at(&s->normal, index, &piece.y, &piece.w, NULL);
-    normal_q27_look_stages(&s->normal, &c->normal, true, &piece, NULL);
-    if (BASE_LIKELY((piece.p1 | piece.p2 | piece.p4) >= 0)) {
-        slip_whole(s, c, &piece, true, false, false, true);
-    } else {
-        advance_tame_phase(s, c);
-    }
-}
-
-/* |x| and |v| below 2, and a normal motion that stays within what the fine arithmetic serves. */
-BASE_INLINE bool is_tame(const struct step_q27 *s, int32_t reach_max)
-{
-    const uint32_t size = ((uint32_t)s->x + TAME_LIMIT) | ((uint32_t)s->v + TAME_LIMIT);
-
-    return s->normal.reach < reach_max && size < 2u * TAME_LIMIT;
-}
-
-static BASE_NOINLINE void advance_other(struct step_q27 *s, const struct step_q27_coeffs *c)
-{
-    if (!is_tame(s, c->reach_max)) {
-        advance_in_pieces(s, c, NULL);
-    } else if (c->normal.has_phase) {
+    if (c->normal.has_phase) {
         advance_tame_phase(s, c);
     } else if (c->has_floor) {
         advance_tame_floor(s, c);
@@ -287,19 +283,73 @@ static BASE_NOINLINE void advance_other(struct step_q27 *s, const struct step_q2
     }
 }
 
+/* --- The same for a pad that does not overtake the disc and is pressed on it, as signs alone can tell, no floor --- */
+
+BASE_INLINE void stick_by(struct step_q27 *s, const struct step_q27_coeffs *c, bool has_phase)
+{
+    struct normal_q27_piece piece;
+
+    look_end(s, c, has_phase, &piece);
+    if (BASE_LIKELY(piece.y >= 0)) {
+        stick_whole(s, c, &piece, true);
+    } else {
+        advance_tame(s, c);
+    }
+}
+
+BASE_INLINE void slip_by(struct step_q27 *s, const struct step_q27_coeffs *c, bool has_phase)
+{
+    struct normal_q27_piece piece;
+
+    look_end(s, c, has_phase, &piece);
+    normal_q27_look_stages(&s->normal, &c->normal, has_phase, &piece, NULL);
+    if (BASE_LIKELY((piece.p1 | piece.p2 | piece.p3 | piece.p4 | piece.y) >= 0)) {
+        slip_whole(s, c, &piece, has_phase, false, false, true);
+    } else {
+        advance_tame(s, c);
+    }
+}
+
+static BASE_NOINLINE void stick_phase(struct step_q27 *s, const struct step_q27_coeffs *c) { stick_by(s, c, true); }
+static BASE_NOINLINE void stick_map(struct step_q27 *s, const struct step_q27_coeffs *c) { stick_by(s, c, false); }
+static BASE_NOINLINE void slip_phase(struct step_q27 *s, const struct step_q27_coeffs *c) { slip_by(s, c, true); }
+static BASE_NOINLINE void slip_map(struct step_q27 *s, const struct step_q27_coeffs *c) { slip_by(s, c, false); }
+
+/* --- Which of them ------------------------------------------------------------------------------------------------ */
+
+static BASE_NOINLINE void advance_other(struct step_q27 *s, const struct step_q27_coeffs *c)
+{
+    if (s->way == WAY_SLIP_MAP) {
+        slip_map(s, c);
+    } else if (s->way == WAY_STICK_MAP) {
+        stick_map(s, c);
+    } else if (s->way == WAY_TAME) {
+        advance_tame(s, c);
+    } else {
+        advance_in_pieces(s, c, NULL);
+    }
+}
+
+/* |x| and |v| below 2. */
+BASE_INLINE bool is_tame(const struct step_q27 *s)
+{
+    return (((uint32_t)s->x + TAME_LIMIT) | ((uint32_t)s->v + TAME_LIMIT)) < 2u * TAME_LIMIT;
+}
+
 /* ------------------------------------------------------------------------------------------------------------------ */
 
 /* Nothing is kept across what is called here, so that no register needs to be saved before it is known what. */
 void step_q27_advance(struct step_q27 *state, const struct step_q27_coeffs *coeffs)
 {
-    const uint32_t index = normal_q27_open_step(&state->normal, &coeffs->normal);
-
-    if (BASE_UNLIKELY(!is_tame(state, coeffs->reach_plain) || state->mode == PLANT_SLIP_MINUS)) {
-        advance_other(state, coeffs);
-    } else if (state->mode == PLANT_STICK) {
-        stick_plain(state, coeffs, index);
+    normal_q27_open_step(&state->normal, &coeffs->normal);
+    if (BASE_UNLIKELY(!is_tame(state))) {
+        advance_in_pieces(state, coeffs, NULL);
+    } else if (state->way == WAY_SLIP_PHASE) {
+        slip_phase(state, coeffs);
+    } else if (state->way == WAY_STICK_PHASE) {
+        stick_phase(state, coeffs);
     } else {
-        slip_plain(state, coeffs, index);
+        advance_other(state, coeffs);
     }
 }
 
@@ -307,6 +357,7 @@ void step_q27_set_input(struct step_q27 *state, const struct step_q27_coeffs *co
 {
     if (input.load != state->normal.n) {
         normal_q27_set_load(&state->normal, &coeffs->normal, input.load, &state->is_saturated);
+        state->way = find_way(state, coeffs);
     }
     if (input.speed != state->disc) {
         event_q27_set_speed(state, coeffs, input.speed);
@@ -322,6 +373,7 @@ void step_q27_adopt(struct step_q27 *state, const struct step_q27_coeffs *coeffs
     turning->carry = fixed_product(coeffs->wide.travel, state->disc, 32u);
     turning->drive = coeffs->reach_max > 0 ? slip_q27_drive(&coeffs->fine, state->disc, NULL) : 0;
     turning->resists = fixed_sum_of(coeffs->drag, state->disc);
+    state->way = find_way(state, coeffs);
 }
 
 int32_t step_q27_friction(const struct step_q27 *state, const struct step_q27_coeffs *coeffs)

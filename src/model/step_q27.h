@@ -19,7 +19,6 @@ struct step_q27_coeffs {
     struct slip_q27_factors fine, wide; /* of a whole step */
     int32_t drag;                       /* -h C in the format of wide */
     int32_t reach_max;                  /* the fast path serves a normal motion within it; 0: no motion at all */
-    int32_t reach_plain; /* the same for undamped closed form of y and no floor, the paper's set, else 0 */
     bool has_floor;
     bool is_naive; /* RK4 on the raw sign, no stick: for comparison only */
     struct normal_q27_coeffs normal;
@@ -46,6 +45,7 @@ struct step_q27 {
     int32_t disc;      /* disc speed held over the present step */
     int8_t mode;       /* enum plant_mode */
     bool is_saturated; /* something did not fit, now or before */
+    uint8_t way;       /* how the usual step is made now: step_q27.c */
     struct step_q27_turning turning;
     struct normal_q27 normal;
     struct plant_output output; /* of the last step */

@@ -263,6 +263,7 @@ static void check_headroom(const char *assignments, float tolerance)
         q27.mode = q27.v < q27.disc ? PLANT_SLIP_PLUS : PLANT_SLIP_MINUS;
         normal_q27_reset(&q27.normal, &plant.plan.q27.normal, fixed_from_float(plants_random(&state, -size, size), 27),
                          fixed_from_float(plants_random(&state, -size, size), 27), q27.normal.n, &q27.is_saturated);
+        step_q27_adopt(&q27, &plant.plan.q27);
         step_f32_reset(&f32, &plant.plan.f32, &plant.plan.params, &plant.plan.scale,
                        (struct step_f32_input){(float)q27.normal.n * UNIT, (float)q27.disc * UNIT});
         f32.x = (float)q27.x * UNIT;
