@@ -3,11 +3,7 @@
 
 #include "model/hermite_q27.h"
 
-enum {
-    ONE = NORMAL_Q27_WHOLE,
-    REST_LEAST = 1 << 10, /* of a step in Q30: nothing happens in what is left then */
-    NOT_HERE = -1
-};
+enum { ONE = NORMAL_Q27_WHOLE, NOT_HERE = -1 };
 
 /* A stretch of the step without a change of contact, on which y is known. Places on it run from 0 to ONE. */
 struct stretch {
@@ -169,22 +165,6 @@ static int32_t find_crossing(const struct work *work, struct slip_piece *piece)
     return hermite_q27_root(&vr, upper);
 }
 
-/* x where the pad meets the disc, at a place of the piece. v is the cubic on which that place was found, so its mean up
- * to there is exactly the mean of its ends less a twelfth of what its slope changes by. */
-static int32_t x_at_crossing(const struct work *work, const struct slip_piece *piece, int32_t place)
-{
-    const struct slip_q27_view *view = &piece->view;
-    const int32_t first = piece->end.first;
-    const int32_t half_rise = (int32_t)fixed_floor((int64_t)piece->end.v - view->v, 1u);
-    const int32_t square = half_rise - (int32_t)fixed_floor(SUM_Q27_SIXTH * (2 * (int64_t)first + piece->last), 32u);
-    const int32_t cube = (int32_t)fixed_floor((int64_t)first + piece->last, 2u) - half_rise;
-    const int32_t bend = fixed_part_near(fixed_part_near(square + fixed_part_near(cube, place), place), place);
-    const int64_t mean = fixed_floor((int64_t)view->v + view->disc, 1u) - bend;
-    const int32_t travel = fixed_part_near(piece->factors->travel, place);
-
-    return fixed_saturate_and_tell(view->x + fixed_round_up(travel * mean, 32u), &work->s->is_saturated);
-}
-
 /* Slips on to the end of the stretch or to vr = 0. known is the end of a piece that is a whole step, NULL if it has not
  * been computed. */
 static void slip_piece(struct work *work, const struct slip_q27_end *known)
@@ -218,7 +198,8 @@ static void slip_piece(struct work *work, const struct slip_q27_end *known)
     if (place > 0) {
         const int32_t meeting = place_within(work, place);
 
-        s->x = signed_by(side, x_at_crossing(work, &piece, place));
+        s->x = signed_by(
+            side, event_q27_x_meeting(piece.factors, &piece.view, &piece.end, piece.last, place, &s->is_saturated));
         move_to(work, meeting, normal_q27_arc_y(&work->stretch.arc, meeting));
     }
     s->v = s->disc;
@@ -227,7 +208,7 @@ static void slip_piece(struct work *work, const struct slip_q27_end *known)
 
 static int32_t carried(const struct work *work, int32_t place)
 {
-    return fixed_product(fixed_part_near(work->c->wide.travel, fraction_to(work, place)), work->s->disc, 32u);
+    return event_q27_carried(work->c, work->s->disc, fraction_to(work, place));
 }
 
 /* Change of h mu P along the rest of the stretch, as it goes at a place of it: 0 where the force is held at 0. */
@@ -239,9 +220,6 @@ static int64_t limit_change(const struct work *work, int32_t place, int32_t y)
     return (int64_t)work->c->wide.friction *
            fixed_part_near(normal_q27_arc_slope(&work->stretch.arc, place), ONE - work->stretch.at);
 }
-
-/* What of a sum in Q55 an event is located by. */
-static int32_t upper_word(int64_t sum) { return (int32_t)fixed_floor(sum, 32u); }
 
 /* Where on the rest of the stretch friction can no longer hold the pad; what it can spare at the end is negative. */
 static int32_t find_exit(const struct work *work, int8_t side, int32_t travel, int64_t spare_end)
@@ -257,7 +235,8 @@ static int32_t find_exit(const struct work *work, int8_t side, int32_t travel, i
     if (spare <= 0) {
         return 0;
     }
-    cubic = hermite_q27_make(upper_word(spare), upper_word(rise_start), upper_word(spare_end), upper_word(rise_end));
+    cubic = hermite_q27_make(event_q27_upper(spare), event_q27_upper(rise_start), event_q27_upper(spare_end),
+                             event_q27_upper(rise_end));
     return hermite_q27_root(&cubic, HERMITE_Q27_ONE);
 }
 
@@ -373,7 +352,7 @@ void event_q27_step(struct step_q27 *s, const struct step_q27_coeffs *c, struct 
     do {
         contact_changes = open_stretch(&work, rest, &piece);
         known = contact_changes ? NULL : known;
-        while (fraction_to(&work, ONE) > REST_LEAST) {
+        while (fraction_to(&work, ONE) > EVENT_Q27_REST_LEAST) {
             if (s->mode == PLANT_STICK) {
                 stick_piece(&work);
             } else {
@@ -387,5 +366,5 @@ void event_q27_step(struct step_q27 *s, const struct step_q27_coeffs *c, struct 
             change_contact(&work);
             normal_q27_look_part(&s->normal, &c->normal, rest, &piece, &s->is_saturated);
         }
-    } while (contact_changes && rest > REST_LEAST);
+    } while (contact_changes && rest > EVENT_Q27_REST_LEAST);
 }

@@ -96,18 +96,43 @@ void normal_q27_arc_make(struct normal_q27_arc *arc, const struct normal_q27 *no
                          const struct normal_q27_coeffs *coeffs, int32_t fraction,
                          const struct normal_q27_piece *piece);
 
-/* Displacement on the way, and its change by t. */
-static inline int32_t normal_q27_arc_y(const struct normal_q27_arc *arc, int32_t t)
+/* What has been added on the way to displacement and slope. */
+static inline int32_t normal_q27_arc_change(const struct normal_q27_arc *arc, int32_t t)
 {
     const int32_t bend = arc->square + fixed_part_near(arc->cube, t);
 
-    return fixed_saturate((int64_t)arc->y + fixed_part_near(arc->slope + fixed_part_near(bend, t), t));
+    return fixed_part_near(arc->slope + fixed_part_near(bend, t), t);
+}
+
+static inline int32_t normal_q27_arc_turn(const struct normal_q27_arc *arc, int32_t t)
+{
+    return fixed_part_near(2 * arc->square + 3 * fixed_part_near(arc->cube, t), t);
+}
+
+/* Displacement on the way, and its change by t. */
+static inline int32_t normal_q27_arc_y(const struct normal_q27_arc *arc, int32_t t)
+{
+    return fixed_saturate((int64_t)arc->y + normal_q27_arc_change(arc, t));
 }
 
 static inline int32_t normal_q27_arc_slope(const struct normal_q27_arc *arc, int32_t t)
 {
-    return fixed_saturate((int64_t)arc->slope +
-                          fixed_part_near(2 * arc->square + 3 * fixed_part_near(arc->cube, t), t));
+    return fixed_saturate((int64_t)arc->slope + normal_q27_arc_turn(arc, t));
+}
+
+/* The same over a whole step within the fine arithmetic, where nothing needs to be held in bounds. */
+BASE_INLINE void normal_q27_arc_fit(struct normal_q27_arc *arc, const struct normal_q27 *normal,
+                                    const struct normal_q27_coeffs *coeffs, const struct normal_q27_piece *piece)
+{
+    const int32_t t = fixed_part_near(coeffs->step, NORMAL_Q27_WHOLE);
+    const int32_t slope0 = fixed_sum_of(t, normal->w).high;
+    const int32_t slope1 = fixed_sum_of(t, piece->w).high;
+    const int32_t rise = piece->y - normal->y;
+
+    arc->y = normal->y;
+    arc->slope = slope0;
+    arc->square = 3 * rise - 2 * slope0 - slope1;
+    arc->cube = slope0 + slope1 - 2 * rise;
 }
 
 /* Moves to the end of a piece. */

@@ -4,17 +4,9 @@
 void slip_q27_take_part(const struct slip_q27_factors *whole, int32_t fraction, bool has_floor, bool is_wide,
                         struct slip_q27_factors *part)
 {
-    part->sixth = whole->sixth;
-    part->travel = fixed_part_near(whole->travel, fraction);
-    part->spring = fixed_part_near(whole->spring, fraction);
-    part->half_stretch = fixed_part_near(fixed_part_near(whole->half_stretch, fraction), fraction);
-    part->stretch = 2 * part->half_stretch;
-    part->friction = fixed_part_near(whole->friction, fraction);
-    part->fade = fixed_part_near(whole->fade, fraction);
+    slip_q27_fine_part(whole, fraction, part);
     if (is_wide) {
         part->drag = fixed_part((int32_t)fixed_floor(whole->drag, 27u), fraction) * (INT64_C(1) << 27) + (1 << 26);
-    } else {
-        part->damp = fixed_part_near(whole->damp - SLIP_Q27_UPPER_UNIT / 2, fraction) + SLIP_Q27_UPPER_UNIT / 2;
     }
     if (has_floor) {
         part->floor = fixed_part(whole->floor, fraction);
@@ -25,17 +17,10 @@ void slip_q27_take_part(const struct slip_q27_factors *whole, int32_t fraction, 
 int32_t slip_q27_any_increment(const struct slip_q27_factors *f, const struct slip_q27_view *view, int32_t x, int32_t v,
                                int32_t p, bool has_floor, bool *is_saturated)
 {
-    struct slip_q27_law law;
-    struct fixed_sum sum;
-
     if (is_saturated != NULL) {
         return slip_q27_increment(f, view, x, v, p, has_floor, SLIP_Q27_WIDE, is_saturated);
     }
-    law = slip_q27_law(f, view, v, p, has_floor);
-    sum = fixed_sum_of(f->spring, x);
-    fixed_sum_add(&sum, law.drive, p);
-    fixed_sum_add(&sum, law.drag, v);
-    return sum.high;
+    return slip_q27_fine_increment(f, view, x, v, p, has_floor);
 }
 
 void slip_q27_any_go(const struct slip_q27_factors *f, const struct slip_q27_view *view,

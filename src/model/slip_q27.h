@@ -218,7 +218,33 @@ BASE_INLINE void slip_q27_go_fine(const struct slip_q27_factors *f, const struct
     end->first = a1;
 }
 
+/* The increment at x, v, rounded down. */
+BASE_INLINE int32_t slip_q27_fine_increment(const struct slip_q27_factors *f, const struct slip_q27_view *view,
+                                            int32_t x, int32_t v, int32_t p, bool has_floor)
+{
+    const struct slip_q27_law law = slip_q27_law(f, view, v, p, has_floor);
+    struct fixed_sum sum = fixed_sum_of(f->spring, x);
+
+    fixed_sum_add(&sum, law.drive, p);
+    fixed_sum_add(&sum, law.drag, v);
+    return sum.high;
+}
+
 /* --- Parts of a step ---------------------------------------------------------------------------------------------- */
+
+/* The fine factors of a part of the step without a floor, a fraction in Q30. */
+BASE_INLINE void slip_q27_fine_part(const struct slip_q27_factors *whole, int32_t fraction,
+                                    struct slip_q27_factors *part)
+{
+    part->sixth = whole->sixth;
+    part->travel = fixed_part_near(whole->travel, fraction);
+    part->spring = fixed_part_near(whole->spring, fraction);
+    part->half_stretch = fixed_part_near(fixed_part_near(whole->half_stretch, fraction), fraction);
+    part->stretch = 2 * part->half_stretch;
+    part->friction = fixed_part_near(whole->friction, fraction);
+    part->fade = fixed_part_near(whole->fade, fraction);
+    part->damp = fixed_part_near(whole->damp - SLIP_Q27_UPPER_UNIT / 2, fraction) + SLIP_Q27_UPPER_UNIT / 2;
+}
 
 /* The factors of a part of the step, a fraction in Q30. Those of the floor are left alone where there is none. */
 void slip_q27_take_part(const struct slip_q27_factors *whole, int32_t fraction, bool has_floor, bool is_wide,

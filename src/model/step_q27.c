@@ -4,6 +4,7 @@
 
 #include "model/event_q27.h"
 #include "model/naive_q27.h"
+#include "model/switch_q27.h"
 
 #define FINE_LIMIT (INT64_C(1) << 31) /* 1/2 in Q32 */
 #define TAME_LIMIT (1u << 28)         /* 2 in Q27 */
@@ -133,6 +134,13 @@ static uint8_t find_way(const struct step_q27 *s, const struct step_q27_coeffs *
     return s->mode == PLANT_STICK ? WAY_STICK_MAP : WAY_SLIP_MAP;
 }
 
+/* The end of an unusual step. */
+static void settle(struct step_q27 *s, const struct step_q27_coeffs *c, const struct plant_notes *notes)
+{
+    s->way = find_way(s, c);
+    report(s, notes);
+}
+
 static BASE_NOINLINE void advance_in_pieces(struct step_q27 *s, const struct step_q27_coeffs *c,
                                             const struct event_q27_attempt *attempt)
 {
@@ -146,30 +154,48 @@ static BASE_NOINLINE void advance_in_pieces(struct step_q27 *s, const struct ste
     if (attempt == NULL) {
         progress.notes.is_gap_held = normal_q27_close_step(&s->normal, &c->normal, &s->is_saturated);
     }
-    s->way = find_way(s, c);
-    report(s, &progress.notes);
+    settle(s, c, &progress.notes);
 }
 
 /* --- The usual step: whole, without an event, everything within the bounds of the fine arithmetic ----------------- */
 
-/* The step was tried as a whole, up to y, w, and may hold an event. */
-static BASE_NOINLINE void find_release(struct step_q27 *s, const struct step_q27_coeffs *c, int32_t y, int32_t w)
-{
-    const struct event_q27_attempt attempt = {y, w, NULL};
-
-    advance_in_pieces(s, c, &attempt);
-}
-
-static BASE_NOINLINE void find_crossing(struct step_q27 *s, const struct step_q27_coeffs *c, int32_t y, int32_t w,
-                                        const struct slip_q27_end *end)
+/* The step was tried as a whole, up to y, w and for a slip up to end, and may hold events. */
+static BASE_NOINLINE void find_events(struct step_q27 *s, const struct step_q27_coeffs *c, int32_t y, int32_t w,
+                                      const struct slip_q27_end *end)
 {
     const struct event_q27_attempt attempt = {y, w, end};
 
     advance_in_pieces(s, c, &attempt);
 }
 
+/* The same where one event of the usual kind is the likely case. */
+static BASE_NOINLINE void find_crossing(struct step_q27 *s, const struct step_q27_coeffs *c, int32_t y, int32_t w,
+                                        const struct slip_q27_end *end)
+{
+    const struct normal_q27_piece tried = {.y = y, .w = w};
+    struct plant_notes notes = {.events = 1u};
+
+    if (switch_q27_cross(s, c, &tried, end, &notes.stick)) {
+        settle(s, c, &notes);
+    } else {
+        find_events(s, c, y, w, end);
+    }
+}
+
+static BASE_NOINLINE void find_release(struct step_q27 *s, const struct step_q27_coeffs *c, int32_t y, int32_t w)
+{
+    const struct normal_q27_piece tried = {.y = y, .w = w};
+    struct plant_notes notes = {.events = 1u};
+
+    if (switch_q27_release(s, c, &tried, &notes.stick)) {
+        settle(s, c, &notes);
+    } else {
+        find_events(s, c, y, w, NULL);
+    }
+}
+
 /* The end of a whole step, x and v as given: forward or not, the same state as seen from here. */
-BASE_INLINE void finish(struct step_q27 *s, int8_t mode, const struct normal_q27_piece *piece, bool is_pressed)
+BASE_INLINE void finish(struct step_q27 *s, int8_t mode, const struct normal_q27_piece *piece, bool is_usual)
 {
     struct plant_output *output = &s->output;
 
@@ -180,7 +206,7 @@ BASE_INLINE void finish(struct step_q27 *s, int8_t mode, const struct normal_q27
     output->w = piece->w;
     output->mode = mode;
     output->has_notes = false;
-    if (!is_pressed && piece->y < 0) {
+    if (!is_usual && piece->y < 0) {
         output->noted = plant_notes(output);
         output->noted.is_lifted = true;
         output->has_notes = true;
@@ -190,7 +216,7 @@ BASE_INLINE void finish(struct step_q27 *s, int8_t mode, const struct normal_q27
 /* An event may lie in the step, where this test does not exclude it, which is that of event_q27.c: a curve that stays
  * above its first tangent stays above 0 when the tangent does. */
 BASE_INLINE void slip_whole(struct step_q27 *s, const struct step_q27_coeffs *c, const struct normal_q27_piece *piece,
-                            bool is_exact, bool has_floor, bool is_turned, bool is_pressed)
+                            bool is_exact, bool has_floor, bool is_turned, bool is_usual)
 {
     struct slip_q27_view view = {s->x, s->v, s->disc, s->turning.drive};
     struct slip_q27_end end;
@@ -202,32 +228,40 @@ BASE_INLINE void slip_whole(struct step_q27 *s, const struct step_q27_coeffs *c,
     if (BASE_UNLIKELY(end.v > view.disc || (view.disc - view.v <= end.first && view.v < view.disc))) {
         const struct slip_q27_end reached = end;
 
-        find_crossing(s, c, piece->y, piece->w, &reached);
+        if (is_usual) {
+            find_crossing(s, c, piece->y, piece->w, &reached);
+        } else {
+            find_events(s, c, piece->y, piece->w, &reached);
+        }
         return;
     }
     s->x = is_turned ? -end.x : end.x;
     s->v = is_turned ? -end.v : end.v;
     s->rest = end.rest;
-    finish(s, is_turned ? PLANT_SLIP_MINUS : PLANT_SLIP_PLUS, piece, is_pressed);
+    finish(s, is_turned ? PLANT_SLIP_MINUS : PLANT_SLIP_PLUS, piece, is_usual);
 }
 
 /* The step is whole if friction still holds the pad at its end. Asked of the upper words alone, which now and then
  * calls for help without need. */
 BASE_INLINE void stick_whole(struct step_q27 *s, const struct step_q27_coeffs *c, const struct normal_q27_piece *piece,
-                             bool is_pressed)
+                             bool is_usual)
 {
     const int32_t x = s->x + s->turning.carry;
-    const int32_t p = is_pressed ? piece->y : normal_q27_force(&s->normal, piece->y);
+    const int32_t p = is_usual ? piece->y : normal_q27_force(&s->normal, piece->y);
     const int32_t limit = fixed_sum_of(c->wide.friction, p).high - 1;
     struct fixed_sum pull = s->turning.resists;
 
     fixed_sum_add(&pull, c->wide.spring, x);
     if (BASE_UNLIKELY(((limit - pull.high) | (limit + pull.high)) < 0)) {
-        find_release(s, c, piece->y, piece->w);
+        if (is_usual) {
+            find_release(s, c, piece->y, piece->w);
+        } else {
+            find_events(s, c, piece->y, piece->w, NULL);
+        }
         return;
     }
     s->x = x;
-    finish(s, PLANT_STICK, piece, is_pressed);
+    finish(s, PLANT_STICK, piece, is_usual);
 }
 
 /* The end of the step, or all of it, from the integer phase or by the one-step map. */
