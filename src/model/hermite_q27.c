@@ -38,8 +38,10 @@ struct hermite_q27 hermite_q27_make_wide(int64_t value0, int64_t slope0, int64_t
 }
 
 /* Where the straight line from value0 > 0 at 0 to end <= 0 at upper meets 0. */
-static int32_t secant(int32_t value0, int32_t end, int32_t upper)
+BASE_INLINE int32_t secant(int32_t value0, int32_t end, int32_t upper)
 {
+    int32_t part;
+
     /* Rounding may have taken a sign; the root is then at the end that it was near. */
     if (value0 <= 0) {
         return 0;
@@ -47,11 +49,12 @@ static int32_t secant(int32_t value0, int32_t end, int32_t upper)
     if (end >= 0) {
         return upper;
     }
-    return fixed_product(upper, (int32_t)fixed_ratio_q30((uint32_t)value0, fixed_abs(end) + (uint32_t)value0), 30);
+    part = (int32_t)fixed_ratio_q30((uint32_t)value0, fixed_abs(end) + (uint32_t)value0);
+    return upper == HERMITE_Q27_ONE ? part : fixed_product(upper, part, 30);
 }
 
 /* t - value/slope, or a place below 0 where the quotient is beyond 1. */
-static int32_t newton(int32_t t, int32_t value, int32_t slope)
+BASE_INLINE int32_t newton(int32_t t, int32_t value, int32_t slope)
 {
     const uint32_t part = fixed_abs(value);
     const uint32_t whole = fixed_abs(slope);
@@ -65,7 +68,7 @@ static int32_t newton(int32_t t, int32_t value, int32_t slope)
     return (value < 0) == (slope < 0) ? t - (int32_t)move : t + (int32_t)move;
 }
 
-int32_t hermite_q27_root(const struct hermite_q27 *f, int32_t upper)
+BASE_INLINE int32_t find_root(const struct hermite_q27 *f, int32_t upper)
 {
     int32_t low = 0;
     int32_t high = upper;
@@ -87,6 +90,10 @@ int32_t hermite_q27_root(const struct hermite_q27 *f, int32_t upper)
     }
     return t;
 }
+
+int32_t hermite_q27_root(const struct hermite_q27 *f, int32_t upper) { return find_root(f, upper); }
+
+int32_t hermite_q27_root_whole(const struct hermite_q27 *f) { return find_root(f, HERMITE_Q27_ONE); }
 
 int32_t hermite_q27_root_after_start(const struct hermite_q27 *f)
 {

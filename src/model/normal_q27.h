@@ -120,14 +120,14 @@ static inline int32_t normal_q27_arc_slope(const struct normal_q27_arc *arc, int
     return fixed_saturate((int64_t)arc->slope + normal_q27_arc_turn(arc, t));
 }
 
-/* The same over a whole step within the fine arithmetic, where nothing needs to be held in bounds. */
+/* The same over a whole step to y, w within the fine arithmetic, where nothing needs to be held in bounds. */
 BASE_INLINE void normal_q27_arc_fit(struct normal_q27_arc *arc, const struct normal_q27 *normal,
-                                    const struct normal_q27_coeffs *coeffs, const struct normal_q27_piece *piece)
+                                    const struct normal_q27_coeffs *coeffs, int32_t y, int32_t w)
 {
     const int32_t t = fixed_part_near(coeffs->step, NORMAL_Q27_WHOLE);
     const int32_t slope0 = fixed_sum_of(t, normal->w).high;
-    const int32_t slope1 = fixed_sum_of(t, piece->w).high;
-    const int32_t rise = piece->y - normal->y;
+    const int32_t slope1 = fixed_sum_of(t, w).high;
+    const int32_t rise = y - normal->y;
 
     arc->y = normal->y;
     arc->slope = slope0;

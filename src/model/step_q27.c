@@ -81,7 +81,7 @@ void step_q27_configure(struct step_q27_coeffs *coeffs, const struct params *par
 }
 
 /* Of an unusual step; a usual one writes its own. */
-static void report(struct step_q27 *s, const struct plant_notes *notes)
+BASE_INLINE void report(struct step_q27 *s, const struct plant_notes *notes)
 {
     struct plant_output *output = &s->output;
 
@@ -93,7 +93,6 @@ static void report(struct step_q27 *s, const struct plant_notes *notes)
     output->mode = s->mode;
     output->has_notes = true;
     output->noted = *notes;
-    output->noted.is_saturated = s->is_saturated;
 }
 
 void step_q27_reset(struct step_q27 *state, const struct step_q27_coeffs *coeffs, const struct params *params,
@@ -113,14 +112,14 @@ void step_q27_reset(struct step_q27 *state, const struct step_q27_coeffs *coeffs
     event_q27_enter(state, PLANT_SLIP_PLUS);
     event_q27_set_speed(state, coeffs, first.speed);
     step_q27_adopt(state, coeffs);
-    report(state, &(struct plant_notes){.events = 0u});
+    report(state, &(struct plant_notes){.is_saturated = state->is_saturated});
 }
 
 /* How the steps to come are made while they are usual. It follows from what only an unusual step, an input or other
  * coefficients may change; in pieces, if the fine arithmetic does not serve the normal motion. */
 enum way { WAY_PIECES, WAY_SLIP_PHASE, WAY_STICK_PHASE, WAY_SLIP_MAP, WAY_STICK_MAP, WAY_TAME };
 
-static uint8_t find_way(const struct step_q27 *s, const struct step_q27_coeffs *c)
+BASE_INLINE uint8_t find_way(const struct step_q27 *s, const struct step_q27_coeffs *c)
 {
     if (s->normal.reach >= c->reach_max) {
         return WAY_PIECES;
@@ -135,7 +134,7 @@ static uint8_t find_way(const struct step_q27 *s, const struct step_q27_coeffs *
 }
 
 /* The end of an unusual step. */
-static void settle(struct step_q27 *s, const struct step_q27_coeffs *c, const struct plant_notes *notes)
+BASE_INLINE void settle(struct step_q27 *s, const struct step_q27_coeffs *c, const struct plant_notes *notes)
 {
     s->way = find_way(s, c);
     report(s, notes);
@@ -154,6 +153,7 @@ static BASE_NOINLINE void advance_in_pieces(struct step_q27 *s, const struct ste
     if (attempt == NULL) {
         progress.notes.is_gap_held = normal_q27_close_step(&s->normal, &c->normal, &s->is_saturated);
     }
+    progress.notes.is_saturated = s->is_saturated;
     settle(s, c, &progress.notes);
 }
 
@@ -168,15 +168,22 @@ static BASE_NOINLINE void find_events(struct step_q27 *s, const struct step_q27_
     advance_in_pieces(s, c, &attempt);
 }
 
-/* The same where one event of the usual kind is the likely case. */
+/* One switch of the usual kind has been made. */
+static void settle_switch(struct step_q27 *s, const struct step_q27_coeffs *c, uint32_t stick)
+{
+    const struct plant_notes notes = {.stick = stick, .events = 1u, .is_saturated = s->is_saturated};
+
+    settle(s, c, &notes);
+}
+
+/* The same where that is the likely case. */
 static BASE_NOINLINE void find_crossing(struct step_q27 *s, const struct step_q27_coeffs *c, int32_t y, int32_t w,
                                         const struct slip_q27_end *end)
 {
-    const struct normal_q27_piece tried = {.y = y, .w = w};
-    struct plant_notes notes = {.events = 1u};
+    const uint32_t stick = switch_q27_cross(s, c, y, w, end);
 
-    if (switch_q27_cross(s, c, &tried, end, &notes.stick)) {
-        settle(s, c, &notes);
+    if (BASE_LIKELY(stick != 0u)) {
+        settle_switch(s, c, stick);
     } else {
         find_events(s, c, y, w, end);
     }
@@ -184,11 +191,10 @@ static BASE_NOINLINE void find_crossing(struct step_q27 *s, const struct step_q2
 
 static BASE_NOINLINE void find_release(struct step_q27 *s, const struct step_q27_coeffs *c, int32_t y, int32_t w)
 {
-    const struct normal_q27_piece tried = {.y = y, .w = w};
-    struct plant_notes notes = {.events = 1u};
+    const uint32_t stick = switch_q27_release(s, c, y, w);
 
-    if (switch_q27_release(s, c, &tried, &notes.stick)) {
-        settle(s, c, &notes);
+    if (BASE_LIKELY(stick != 0u)) {
+        settle_switch(s, c, stick);
     } else {
         find_events(s, c, y, w, NULL);
     }

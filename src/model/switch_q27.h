@@ -7,11 +7,10 @@
 #include "model/step_q27.h"
 
 /* A whole step was tried from the present state, in the fine arithmetic: y and w at its end, and where the pad slips
- * also the end of the slip. If the step is of the kind above, the state moves on to its end; *stick is the share of the
- * step spent sticking, Q30. Otherwise false, and nothing has changed. */
-bool switch_q27_cross(struct step_q27 *s, const struct step_q27_coeffs *c, const struct normal_q27_piece *tried,
-                      const struct slip_q27_end *end, uint32_t *stick);
-bool switch_q27_release(struct step_q27 *s, const struct step_q27_coeffs *c, const struct normal_q27_piece *tried,
-                        uint32_t *stick);
+ * also the end of the slip. If the step is of the kind above, the state moves on to its end. Returns the share of the
+ * step spent sticking, Q30, or 0 if it is of another kind; then nothing has changed. */
+uint32_t switch_q27_cross(struct step_q27 *s, const struct step_q27_coeffs *c, int32_t y, int32_t w,
+                          const struct slip_q27_end *end);
+uint32_t switch_q27_release(struct step_q27 *s, const struct step_q27_coeffs *c, int32_t y, int32_t w);
 
 #endif
