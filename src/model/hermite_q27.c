@@ -15,7 +15,7 @@ static int32_t scaled(int32_t value, unsigned up)
     return fixed_floor_word((int32_t)((uint32_t)value << up), 31u - INPUT_BITS);
 }
 
-struct hermite_q27 hermite_q27_make(int32_t value0, int32_t slope0, int32_t value1, int32_t slope1)
+BASE_INLINE struct hermite_q27 make(int32_t value0, int32_t slope0, int32_t value1, int32_t slope1)
 {
     const uint32_t all = significant(value0) | significant(slope0) | significant(value1) | significant(slope1);
     const unsigned up = BASE_LEADING_ZEROS(all | 1u) - 1u;
@@ -26,6 +26,11 @@ struct hermite_q27 hermite_q27_make(int32_t value0, int32_t slope0, int32_t valu
     const struct hermite_q27 f = {start, d0, 3 * rise - 2 * d0 - d1, d0 + d1 - 2 * rise};
 
     return f;
+}
+
+struct hermite_q27 hermite_q27_make(int32_t value0, int32_t slope0, int32_t value1, int32_t slope1)
+{
+    return make(value0, slope0, value1, slope1);
 }
 
 struct hermite_q27 hermite_q27_make_wide(int64_t value0, int64_t slope0, int64_t value1, int64_t slope1)
@@ -93,7 +98,12 @@ BASE_INLINE int32_t find_root(const struct hermite_q27 *f, int32_t upper)
 
 int32_t hermite_q27_root(const struct hermite_q27 *f, int32_t upper) { return find_root(f, upper); }
 
-int32_t hermite_q27_root_whole(const struct hermite_q27 *f) { return find_root(f, HERMITE_Q27_ONE); }
+int32_t hermite_q27_find(int32_t value0, int32_t slope0, int32_t value1, int32_t slope1)
+{
+    const struct hermite_q27 f = make(value0, slope0, value1, slope1);
+
+    return find_root(&f, HERMITE_Q27_ONE);
+}
 
 int32_t hermite_q27_root_after_start(const struct hermite_q27 *f)
 {

@@ -21,8 +21,8 @@ struct hermite_q27 hermite_q27_make_wide(int64_t value0, int64_t slope0, int64_t
 /* First root in (0, upper], for f(0) > 0 >= f(upper): secant start, two safeguarded Newton passes. */
 int32_t hermite_q27_root(const struct hermite_q27 *f, int32_t upper);
 
-/* The same for upper = 1. */
-int32_t hermite_q27_root_whole(const struct hermite_q27 *f);
+/* The same in (0, 1], of the cubic that hermite_q27_make() would make. */
+int32_t hermite_q27_find(int32_t value0, int32_t slope0, int32_t value1, int32_t slope1);
 
 /* Root in (0, 1] of a curve that starts at f(0) = 0 with slope0 > 0 and ends below 0: the root at 0 is divided out. */
 int32_t hermite_q27_root_after_start(const struct hermite_q27 *f);

@@ -80,8 +80,8 @@ void step_q27_configure(struct step_q27_coeffs *coeffs, const struct params *par
     coeffs->damping_q24 = fixed_from_float(scale->damping, 24);
 }
 
-/* Of an unusual step; a usual one writes its own. */
-BASE_INLINE void report(struct step_q27 *s, const struct plant_notes *notes)
+/* Of an unusual step, but for the notes; a usual one writes its own. */
+BASE_INLINE void report(struct step_q27 *s)
 {
     struct plant_output *output = &s->output;
 
@@ -92,7 +92,6 @@ BASE_INLINE void report(struct step_q27 *s, const struct plant_notes *notes)
     output->disc = s->disc;
     output->mode = s->mode;
     output->has_notes = true;
-    output->noted = *notes;
 }
 
 void step_q27_reset(struct step_q27 *state, const struct step_q27_coeffs *coeffs, const struct params *params,
@@ -112,7 +111,8 @@ void step_q27_reset(struct step_q27 *state, const struct step_q27_coeffs *coeffs
     event_q27_enter(state, PLANT_SLIP_PLUS);
     event_q27_set_speed(state, coeffs, first.speed);
     step_q27_adopt(state, coeffs);
-    report(state, &(struct plant_notes){.is_saturated = state->is_saturated});
+    report(state);
+    state->output.noted = (struct plant_notes){.is_saturated = state->is_saturated};
 }
 
 /* How the steps to come are made while they are usual. It follows from what only an unusual step, an input or other
@@ -134,10 +134,10 @@ BASE_INLINE uint8_t find_way(const struct step_q27 *s, const struct step_q27_coe
 }
 
 /* The end of an unusual step. */
-BASE_INLINE void settle(struct step_q27 *s, const struct step_q27_coeffs *c, const struct plant_notes *notes)
+BASE_INLINE void settle(struct step_q27 *s, const struct step_q27_coeffs *c)
 {
     s->way = find_way(s, c);
-    report(s, notes);
+    report(s);
 }
 
 static BASE_NOINLINE void advance_in_pieces(struct step_q27 *s, const struct step_q27_coeffs *c,
@@ -153,8 +153,9 @@ static BASE_NOINLINE void advance_in_pieces(struct step_q27 *s, const struct ste
     if (attempt == NULL) {
         progress.notes.is_gap_held = normal_q27_close_step(&s->normal, &c->normal, &s->is_saturated);
     }
-    progress.notes.is_saturated = s->is_saturated;
-    settle(s, c, &progress.notes);
+    settle(s, c);
+    s->output.noted = progress.notes;
+    s->output.noted.is_saturated = s->is_saturated;
 }
 
 /* --- The usual step: whole, without an event, everything within the bounds of the fine arithmetic ----------------- */
@@ -169,31 +170,18 @@ static BASE_NOINLINE void find_events(struct step_q27 *s, const struct step_q27_
 }
 
 /* One switch of the usual kind has been made. */
-static void settle_switch(struct step_q27 *s, const struct step_q27_coeffs *c, uint32_t stick)
+static BASE_NOINLINE void settle_switch(struct step_q27 *s, const struct step_q27_coeffs *c, uint32_t stick)
 {
-    const struct plant_notes notes = {.stick = stick, .events = 1u, .is_saturated = s->is_saturated};
-
-    settle(s, c, &notes);
+    settle(s, c);
+    s->output.noted = (struct plant_notes){.stick = stick, .events = 1u, .is_saturated = s->is_saturated};
 }
 
-/* The same where that is the likely case. */
-static BASE_NOINLINE void find_crossing(struct step_q27 *s, const struct step_q27_coeffs *c, int32_t y, int32_t w,
-                                        const struct slip_q27_end *end)
-{
-    const uint32_t stick = switch_q27_cross(s, c, y, w, end);
-
-    if (BASE_LIKELY(stick != 0u)) {
-        settle_switch(s, c, stick);
-    } else {
-        find_events(s, c, y, w, end);
-    }
-}
-
+/* A function of its own, for the sake of those many steps that find none. */
 static BASE_NOINLINE void find_release(struct step_q27 *s, const struct step_q27_coeffs *c, int32_t y, int32_t w)
 {
     const uint32_t stick = switch_q27_release(s, c, y, w);
 
-    if (BASE_LIKELY(stick != 0u)) {
+    if (stick != 0u) {
         settle_switch(s, c, stick);
     } else {
         find_events(s, c, y, w, NULL);
@@ -234,8 +222,10 @@ BASE_INLINE void slip_whole(struct step_q27 *s, const struct step_q27_coeffs *c,
     if (BASE_UNLIKELY(end.v > view.disc || (view.disc - view.v <= end.first && view.v < view.disc))) {
         const struct slip_q27_end reached = end;
 
-        if (is_usual) {
-            find_crossing(s, c, piece->y, piece->w, &reached);
+        const uint32_t stick = is_usual ? switch_q27_cross(s, c, piece->y, piece->w, &reached) : 0u;
+
+        if (stick != 0u) {
+            settle_switch(s, c, stick);
         } else {
             find_events(s, c, piece->y, piece->w, &reached);
         }

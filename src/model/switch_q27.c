@@ -23,15 +23,13 @@ uint32_t switch_q27_cross(struct step_q27 *s, const struct step_q27_coeffs *c, i
     const int32_t vr_start = view.disc - view.v;
     const int32_t vr_end = view.disc - end->v;
     struct normal_q27_arc arc;
-    struct hermite_q27 vr;
     int32_t last, place, x, meeting;
 
     if (vr_start <= 0 || vr_end >= 0) {
         return 0u;
     }
     last = slip_q27_fine_increment(&c->fine, &view, end->x, end->v, y, false);
-    vr = hermite_q27_make(vr_start, -end->first, vr_end, -last);
-    place = hermite_q27_root_whole(&vr);
+    place = hermite_q27_find(vr_start, -end->first, vr_end, -last);
     if (place <= 0 || place >= ONE - EVENT_Q27_REST_LEAST) {
         return 0u;
     }
@@ -61,16 +59,14 @@ static int32_t find_release(const struct step_q27 *s, const struct step_q27_coef
     const int64_t spare_end = (int64_t)c->wide.friction * y_end - need_end;
     const int64_t pull = (int64_t)c->wide.spring * travel;
     const int32_t slope_end = arc->slope + normal_q27_arc_turn(arc, ONE);
-    struct hermite_q27 cubic;
 
     if (need_end <= 0 || spare <= 0 || spare_end >= 0) {
         return 0;
     }
-    cubic = hermite_q27_make(event_q27_upper(spare),
-                             event_q27_upper((int64_t)c->wide.friction * fixed_part_near(arc->slope, ONE) + pull),
-                             event_q27_upper(spare_end),
-                             event_q27_upper((int64_t)c->wide.friction * fixed_part_near(slope_end, ONE) + pull));
-    return hermite_q27_root_whole(&cubic);
+    return hermite_q27_find(event_q27_upper(spare),
+                            event_q27_upper((int64_t)c->wide.friction * fixed_part_near(arc->slope, ONE) + pull),
+                            event_q27_upper(spare_end),
+                            event_q27_upper((int64_t)c->wide.friction * fixed_part_near(slope_end, ONE) + pull));
 }
 
 uint32_t switch_q27_release(struct step_q27 *s, const struct step_q27_coeffs *c, int32_t y, int32_t w)
