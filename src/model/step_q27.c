@@ -9,6 +9,10 @@
 #define FINE_LIMIT (INT64_C(1) << 31) /* 1/2 in Q32 */
 #define TAME_LIMIT (1u << 28)         /* 2 in Q27 */
 
+/* How the steps to come are made while they are usual. It follows from what only an unusual step, an input or other
+ * coefficients may change. */
+enum way { WAY_PIECES, WAY_SLIP_PHASE, WAY_STICK_PHASE, WAY_SLIP_MAP, WAY_STICK_MAP, WAY_TAME };
+
 /* h value 2^exponent, h exact to 38 bits. */
 static int64_t times_step(const struct scale *scale, float value, int exponent)
 {
@@ -64,6 +68,15 @@ static int32_t fine_reach(const struct scale *scale)
     return 0;
 }
 
+static void configure_ways(struct step_q27_coeffs *coeffs)
+{
+    const bool has_phase = coeffs->normal.has_phase;
+
+    coeffs->ways[1 + PLANT_SLIP_MINUS] = WAY_TAME;
+    coeffs->ways[1 + PLANT_STICK] = coeffs->has_floor ? WAY_TAME : has_phase ? WAY_STICK_PHASE : WAY_STICK_MAP;
+    coeffs->ways[1 + PLANT_SLIP_PLUS] = coeffs->has_floor ? WAY_TAME : has_phase ? WAY_SLIP_PHASE : WAY_SLIP_MAP;
+}
+
 void step_q27_configure(struct step_q27_coeffs *coeffs, const struct params *params, const struct scale *scale)
 {
     normal_q27_configure(&coeffs->normal, params, scale);
@@ -73,6 +86,7 @@ void step_q27_configure(struct step_q27_coeffs *coeffs, const struct params *par
     coeffs->has_floor = scale->has_floor;
     coeffs->is_naive = (int)params->tangential_method == METHOD_NAIVE;
     coeffs->reach_max = coeffs->is_naive ? 0 : fine_reach(scale);
+    configure_ways(coeffs);
     coeffs->stiffness = fixed_from_float(scale->stiffness, PLANT_FRACTION_BITS + (int)scale->length_shift);
     coeffs->friction = fixed_from_float(scale->friction, PLANT_FRACTION_BITS);
     coeffs->slope = fixed_from_float(scale->friction_slope, PLANT_FRACTION_BITS);
@@ -115,26 +129,14 @@ void step_q27_reset(struct step_q27 *state, const struct step_q27_coeffs *coeffs
     state->output.noted = (struct plant_notes){.is_saturated = state->is_saturated};
 }
 
-/* How the steps to come are made while they are usual. It follows from what only an unusual step, an input or other
- * coefficients may change; in pieces, if the fine arithmetic does not serve the normal motion. */
-enum way { WAY_PIECES, WAY_SLIP_PHASE, WAY_STICK_PHASE, WAY_SLIP_MAP, WAY_STICK_MAP, WAY_TAME };
-
+/* In pieces, if the fine arithmetic does not serve the normal motion. */
 BASE_INLINE uint8_t find_way(const struct step_q27 *s, const struct step_q27_coeffs *c)
 {
-    if (s->normal.reach >= c->reach_max) {
-        return WAY_PIECES;
-    }
-    if (s->mode == PLANT_SLIP_MINUS || c->has_floor) {
-        return WAY_TAME;
-    }
-    if (c->normal.has_phase) {
-        return s->mode == PLANT_STICK ? WAY_STICK_PHASE : WAY_SLIP_PHASE;
-    }
-    return s->mode == PLANT_STICK ? WAY_STICK_MAP : WAY_SLIP_MAP;
+    return s->normal.reach >= c->reach_max ? WAY_PIECES : c->ways[1 + s->mode];
 }
 
 /* The end of an unusual step. */
-BASE_INLINE void settle(struct step_q27 *s, const struct step_q27_coeffs *c)
+static BASE_NOINLINE void settle(struct step_q27 *s, const struct step_q27_coeffs *c)
 {
     s->way = find_way(s, c);
     report(s);
@@ -169,20 +171,11 @@ static BASE_NOINLINE void find_events(struct step_q27 *s, const struct step_q27_
     advance_in_pieces(s, c, &attempt);
 }
 
-/* One switch of the usual kind has been made. */
-static BASE_NOINLINE void settle_switch(struct step_q27 *s, const struct step_q27_coeffs *c, uint32_t stick)
-{
-    settle(s, c);
-    s->output.noted = (struct plant_notes){.stick = stick, .events = 1u, .is_saturated = s->is_saturated};
-}
-
 /* A function of its own, for the sake of those many steps that find none. */
 static BASE_NOINLINE void find_release(struct step_q27 *s, const struct step_q27_coeffs *c, int32_t y, int32_t w)
 {
-    const uint32_t stick = switch_q27_release(s, c, y, w);
-
-    if (stick != 0u) {
-        settle_switch(s, c, stick);
+    if (BASE_LIKELY(switch_q27_release(s, c, y, w))) {
+        settle(s, c);
     } else {
         find_events(s, c, y, w, NULL);
     }
@@ -207,6 +200,12 @@ BASE_INLINE void finish(struct step_q27 *s, int8_t mode, const struct normal_q27
     }
 }
 
+/* Is the pad pressed on the disc throughout, as signs alone can tell? */
+BASE_INLINE bool is_pressing(const struct normal_q27_piece *piece)
+{
+    return (piece->p1 | piece->p2 | piece->p3 | piece->p4 | piece->y) >= 0;
+}
+
 /* An event may lie in the step, where this test does not exclude it, which is that of event_q27.c: a curve that stays
  * above its first tangent stays above 0 when the tangent does. */
 BASE_INLINE void slip_whole(struct step_q27 *s, const struct step_q27_coeffs *c, const struct normal_q27_piece *piece,
@@ -222,10 +221,8 @@ BASE_INLINE void slip_whole(struct step_q27 *s, const struct step_q27_coeffs *c,
     if (BASE_UNLIKELY(end.v > view.disc || (view.disc - view.v <= end.first && view.v < view.disc))) {
         const struct slip_q27_end reached = end;
 
-        const uint32_t stick = is_usual ? switch_q27_cross(s, c, piece->y, piece->w, &reached) : 0u;
-
-        if (stick != 0u) {
-            settle_switch(s, c, stick);
+        if (!has_floor && (is_usual || is_pressing(piece)) && switch_q27_cross(s, c, piece->y, piece->w, &reached)) {
+            settle(s, c);
         } else {
             find_events(s, c, piece->y, piece->w, &reached);
         }
@@ -333,7 +330,7 @@ BASE_INLINE void slip_by(struct step_q27 *s, const struct step_q27_coeffs *c, bo
 
     look_end(s, c, has_phase, &piece);
     normal_q27_look_stages(&s->normal, &c->normal, has_phase, &piece, NULL);
-    if (BASE_LIKELY((piece.p1 | piece.p2 | piece.p3 | piece.p4 | piece.y) >= 0)) {
+    if (BASE_LIKELY(is_pressing(&piece))) {
         slip_whole(s, c, &piece, has_phase, false, false, true);
     } else {
         advance_tame(s, c);

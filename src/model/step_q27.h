@@ -19,6 +19,7 @@ struct step_q27_coeffs {
     struct slip_q27_factors fine, wide; /* of a whole step */
     int32_t drag;                       /* -h C in the format of wide */
     int32_t reach_max;                  /* the fast path serves a normal motion within it; 0: no motion at all */
+    uint8_t ways[3];                    /* of the usual step in each mode, from PLANT_SLIP_MINUS on: step_q27.c */
     bool has_floor;
     bool is_naive; /* RK4 on the raw sign, no stick: for comparison only */
     struct normal_q27_coeffs normal;

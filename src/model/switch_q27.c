@@ -6,57 +6,133 @@
 
 enum { ONE = NORMAL_Q27_WHOLE };
 
-/* The pad has switched and is at the end of the step. */
-BASE_INLINE void finish(struct step_q27 *s, int8_t mode, int32_t x, int32_t v, int32_t y, int32_t w)
+/* A step with one switch at work. */
+struct attempt {
+    struct step_q27 *s;
+    const struct step_q27_coeffs *c;
+    int32_t y, w; /* at its end */
+    struct normal_q27_arc arc;
+    int32_t place; /* of the switch, Q30 */
+};
+
+BASE_INLINE int32_t signed_by(int8_t side, int32_t value) { return side < 0 ? -value : value; }
+
+BASE_INLINE void begin(struct attempt *attempt, struct step_q27 *s, const struct step_q27_coeffs *c, int32_t y,
+                       int32_t w)
 {
+    attempt->s = s;
+    attempt->c = c;
+    attempt->y = y;
+    attempt->w = w;
+    normal_q27_arc_fit(&attempt->arc, &s->normal, &c->normal, y, w);
+}
+
+BASE_INLINE int32_t y_at(const struct attempt *attempt, int32_t place)
+{
+    return attempt->arc.y + normal_q27_arc_change(&attempt->arc, place);
+}
+
+/* A switch that leaves next to nothing of the step, or none before it, is another kind. */
+BASE_INLINE bool is_inside(int32_t place) { return place > 0 && place < ONE - EVENT_Q27_REST_LEAST; }
+
+BASE_INLINE uint32_t share_of(int8_t regime, int8_t before, int8_t after, int32_t place)
+{
+    return before == regime ? (uint32_t)place : after == regime ? (uint32_t)(ONE - place) : 0u;
+}
+
+/* The pad is at the end of the step in its new regime. */
+BASE_INLINE void finish(const struct attempt *attempt, int8_t mode, int32_t x, int32_t v)
+{
+    struct step_q27 *s = attempt->s;
+
+    s->output.noted = (struct plant_notes){.stick = share_of(PLANT_STICK, s->mode, mode, attempt->place),
+                                           .slip_minus = share_of(PLANT_SLIP_MINUS, s->mode, mode, attempt->place),
+                                           .events = 1u,
+                                           .is_saturated = s->is_saturated};
     s->x = x;
     s->v = v;
     s->mode = mode;
-    s->normal.y = y;
-    s->normal.w = w;
+    s->normal.y = attempt->y;
+    s->normal.w = attempt->w;
 }
 
-uint32_t switch_q27_cross(struct step_q27 *s, const struct step_q27_coeffs *c, int32_t y, int32_t w,
-                          const struct slip_q27_end *end)
+/* From x on the pad sticks to the end. */
+BASE_INLINE bool stick_on(const struct attempt *attempt, int32_t x)
 {
-    const struct slip_q27_view view = {s->x, s->v, s->disc, s->turning.drive};
-    const int32_t vr_start = view.disc - view.v;
-    const int32_t vr_end = view.disc - end->v;
-    struct normal_q27_arc arc;
-    int32_t last, place, x, meeting;
+    struct step_q27 *s = attempt->s;
+    const int32_t x_end = x + event_q27_carried(attempt->c, s->disc, ONE - attempt->place);
 
-    if (vr_start <= 0 || vr_end >= 0) {
-        return 0u;
+    if (!event_q27_is_held(attempt->c, x_end, s->disc, attempt->y, 0)) {
+        return false;
+    }
+    finish(attempt, PLANT_STICK, x_end, s->disc);
+    s->rest = event_q27_no_rest;
+    return true;
+}
+
+/* From x on, where the contact force is p, the pad slips to the end. */
+static BASE_NOINLINE bool slip_on(const struct attempt *attempt, int8_t side, int32_t x, int32_t p)
+{
+    struct step_q27 *s = attempt->s;
+    const int32_t place = attempt->place;
+    const int32_t middle = y_at(attempt, place + (ONE - place) / 2);
+    const struct normal_q27_piece piece = {.p1 = p, .p2 = middle, .p4 = attempt->y};
+    const int32_t disc = signed_by(side, s->disc);
+    struct slip_q27_view view = {signed_by(side, x), disc, disc, 0};
+    struct slip_q27_factors part;
+    struct slip_q27_end end;
+
+    slip_q27_fine_part(&attempt->c->fine, ONE - place, &part);
+    view.drive = slip_q27_drive(&part, disc, NULL);
+    slip_q27_go_fine(&part, &view, &event_q27_no_rest, &piece, &end, true, false);
+    if (middle < 0 || end.v > disc) {
+        return false;
+    }
+    finish(attempt, side, signed_by(side, end.x), signed_by(side, end.v));
+    s->rest = end.rest;
+    return true;
+}
+
+bool switch_q27_cross(struct step_q27 *s, const struct step_q27_coeffs *c, int32_t y, int32_t w,
+                      const struct slip_q27_end *end)
+{
+    const int8_t side = s->mode;
+    const int32_t disc = signed_by(side, s->disc);
+    struct slip_q27_view view = {signed_by(side, s->x), signed_by(side, s->v), disc, s->turning.drive};
+    struct attempt attempt;
+    int32_t last, x, p;
+
+    if (disc <= view.v || disc >= end->v) {
+        return false;
+    }
+    if (side < 0) {
+        view.drive = slip_q27_drive(&c->fine, disc, NULL);
     }
     last = slip_q27_fine_increment(&c->fine, &view, end->x, end->v, y, false);
-    place = hermite_q27_find(vr_start, -end->first, vr_end, -last);
-    if (place <= 0 || place >= ONE - EVENT_Q27_REST_LEAST) {
-        return 0u;
+    begin(&attempt, s, c, y, w);
+    attempt.place = hermite_q27_find(disc - view.v, -end->first, disc - end->v, -last);
+    p = y_at(&attempt, attempt.place);
+    if (!is_inside(attempt.place) || p < 0) {
+        return false;
     }
-    normal_q27_arc_fit(&arc, &s->normal, &c->normal, y, w);
-    x = event_q27_x_meeting(&c->fine, &view, end, last, place, NULL);
-    meeting = arc.y + normal_q27_arc_change(&arc, place);
-    if (meeting < 0 || !event_q27_is_held(c, x, view.disc, meeting, 0)) {
-        return 0u;
+    x = signed_by(side, event_q27_x_meeting(&c->fine, &view, end, last, attempt.place, NULL));
+    if (event_q27_is_held(c, x, s->disc, p, 0)) {
+        return stick_on(&attempt, x);
     }
-    x += event_q27_carried(c, view.disc, ONE - place);
-    if (!event_q27_is_held(c, x, view.disc, y, 0)) {
-        return 0u;
-    }
-    finish(s, PLANT_STICK, x, view.disc, y, w);
-    s->rest = event_q27_no_rest;
-    return (uint32_t)(ONE - place);
+    return signed_by(side, event_q27_need(c, x, s->disc) > 0 ? 1 : -1) < 0 && slip_on(&attempt, -side, x, p);
 }
 
 /* Where friction can no longer hold the pad against a pull forward, or 0 where this is no simple case. */
-static int32_t find_release(const struct step_q27 *s, const struct step_q27_coeffs *c, const struct normal_q27_arc *arc,
-                            int32_t y_end)
+BASE_INLINE int32_t find_release(const struct attempt *attempt)
 {
+    const struct step_q27_coeffs *c = attempt->c;
+    const struct step_q27 *s = attempt->s;
+    const struct normal_q27_arc *arc = &attempt->arc;
     const int32_t travel = event_q27_carried(c, s->disc, ONE);
     const int64_t need = event_q27_need(c, s->x, s->disc);
     const int64_t need_end = event_q27_need(c, s->x + travel, s->disc);
     const int64_t spare = (int64_t)c->wide.friction * arc->y - need;
-    const int64_t spare_end = (int64_t)c->wide.friction * y_end - need_end;
+    const int64_t spare_end = (int64_t)c->wide.friction * attempt->y - need_end;
     const int64_t pull = (int64_t)c->wide.spring * travel;
     const int32_t slope_end = arc->slope + normal_q27_arc_turn(arc, ONE);
 
@@ -69,34 +145,14 @@ static int32_t find_release(const struct step_q27 *s, const struct step_q27_coef
                             event_q27_upper((int64_t)c->wide.friction * fixed_part_near(slope_end, ONE) + pull));
 }
 
-uint32_t switch_q27_release(struct step_q27 *s, const struct step_q27_coeffs *c, int32_t y, int32_t w)
+bool switch_q27_release(struct step_q27 *s, const struct step_q27_coeffs *c, int32_t y, int32_t w)
 {
-    struct normal_q27_piece piece;
-    struct slip_q27_view view = {0, s->v, s->disc, 0};
-    struct slip_q27_factors part;
-    struct slip_q27_end end;
-    struct normal_q27_arc arc;
-    int32_t place;
+    struct attempt attempt;
+    int32_t p;
 
-    normal_q27_arc_fit(&arc, &s->normal, &c->normal, y, w);
-    place = find_release(s, c, &arc, y);
-    if (place <= 0 || place >= ONE - EVENT_Q27_REST_LEAST) {
-        return 0u;
-    }
-    piece.p1 = arc.y + normal_q27_arc_change(&arc, place);
-    piece.p2 = arc.y + normal_q27_arc_change(&arc, place + (ONE - place) / 2);
-    piece.p4 = y;
-    if ((piece.p1 | piece.p2) < 0) {
-        return 0u;
-    }
-    slip_q27_fine_part(&c->fine, ONE - place, &part);
-    view.x = s->x + event_q27_carried(c, s->disc, place);
-    view.drive = slip_q27_drive(&part, view.disc, NULL);
-    slip_q27_go_fine(&part, &view, &event_q27_no_rest, &piece, &end, true, false);
-    if (end.v > view.disc) {
-        return 0u;
-    }
-    finish(s, PLANT_SLIP_PLUS, end.x, end.v, y, w);
-    s->rest = end.rest;
-    return (uint32_t)place;
+    begin(&attempt, s, c, y, w);
+    attempt.place = find_release(&attempt);
+    p = y_at(&attempt, attempt.place);
+    return is_inside(attempt.place) && p >= 0 &&
+           slip_on(&attempt, PLANT_SLIP_PLUS, s->x + event_q27_carried(c, s->disc, attempt.place), p);
 }
