@@ -80,6 +80,18 @@ BASE_INLINE int32_t event_q27_x_meeting(const struct slip_q27_factors *f, const 
         view->x + fixed_round_up(travel * (fixed_floor((int64_t)view->v + view->disc, 1u) - bend), 32u), tell);
 }
 
+/* Friction under the contact force p holds the pad for certain. Asked of the upper words alone, which now and then do
+ * not know. */
+BASE_INLINE bool event_q27_is_held_surely(const struct step_q27 *s, const struct step_q27_coeffs *c, int32_t x,
+                                          int32_t p)
+{
+    const int32_t limit = fixed_sum_of(c->wide.friction, p).high - 1;
+    struct fixed_sum pull = s->turning.resists;
+
+    fixed_sum_add(&pull, c->wide.spring, x);
+    return ((limit - pull.high) | (limit + pull.high)) >= 0;
+}
+
 /* Can friction under the contact force p hold the pad, against an extra need? */
 BASE_INLINE bool event_q27_is_held(const struct step_q27_coeffs *c, int32_t x, int32_t disc, int32_t p, int64_t extra)
 {

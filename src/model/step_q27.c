@@ -234,18 +234,14 @@ BASE_INLINE void slip_whole(struct step_q27 *s, const struct step_q27_coeffs *c,
     finish(s, is_turned ? PLANT_SLIP_MINUS : PLANT_SLIP_PLUS, piece, is_usual);
 }
 
-/* The step is whole if friction still holds the pad at its end. Asked of the upper words alone, which now and then
- * calls for help without need. */
+/* The step is whole if friction still holds the pad at its end. */
 BASE_INLINE void stick_whole(struct step_q27 *s, const struct step_q27_coeffs *c, const struct normal_q27_piece *piece,
                              bool is_usual)
 {
     const int32_t x = s->x + s->turning.carry;
     const int32_t p = is_usual ? piece->y : normal_q27_force(&s->normal, piece->y);
-    const int32_t limit = fixed_sum_of(c->wide.friction, p).high - 1;
-    struct fixed_sum pull = s->turning.resists;
 
-    fixed_sum_add(&pull, c->wide.spring, x);
-    if (BASE_UNLIKELY(((limit - pull.high) | (limit + pull.high)) < 0)) {
+    if (BASE_UNLIKELY(!event_q27_is_held_surely(s, c, x, p))) {
         if (is_usual) {
             find_release(s, c, piece->y, piece->w);
         } else {

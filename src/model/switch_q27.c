@@ -35,20 +35,13 @@ BASE_INLINE int32_t y_at(const struct attempt *attempt, int32_t place)
 /* A switch that leaves next to nothing of the step, or none before it, is another kind. */
 BASE_INLINE bool is_inside(int32_t place) { return place > 0 && place < ONE - EVENT_Q27_REST_LEAST; }
 
-BASE_INLINE uint32_t share_of(int8_t regime, int8_t before, int8_t after, int32_t place)
-{
-    return before == regime ? (uint32_t)place : after == regime ? (uint32_t)(ONE - place) : 0u;
-}
-
 /* The pad is at the end of the step in its new regime. */
-BASE_INLINE void finish(const struct attempt *attempt, int8_t mode, int32_t x, int32_t v)
+BASE_INLINE void finish(const struct attempt *attempt, int8_t mode, int32_t x, int32_t v, int32_t stick,
+                        int32_t slip_minus)
 {
     struct step_q27 *s = attempt->s;
 
-    s->output.noted = (struct plant_notes){.stick = share_of(PLANT_STICK, s->mode, mode, attempt->place),
-                                           .slip_minus = share_of(PLANT_SLIP_MINUS, s->mode, mode, attempt->place),
-                                           .events = 1u,
-                                           .is_saturated = s->is_saturated};
+    s->output.noted = (struct plant_notes){.stick = (uint32_t)stick, .slip_minus = (uint32_t)slip_minus, .events = 1u};
     s->x = x;
     s->v = v;
     s->mode = mode;
@@ -62,10 +55,10 @@ BASE_INLINE bool stick_on(const struct attempt *attempt, int32_t x)
     struct step_q27 *s = attempt->s;
     const int32_t x_end = x + event_q27_carried(attempt->c, s->disc, ONE - attempt->place);
 
-    if (!event_q27_is_held(attempt->c, x_end, s->disc, attempt->y, 0)) {
+    if (!event_q27_is_held_surely(s, attempt->c, x_end, attempt->y)) {
         return false;
     }
-    finish(attempt, PLANT_STICK, x_end, s->disc);
+    finish(attempt, PLANT_STICK, x_end, s->disc, ONE - attempt->place, s->mode < 0 ? attempt->place : 0);
     s->rest = event_q27_no_rest;
     return true;
 }
@@ -75,7 +68,7 @@ static BASE_NOINLINE bool slip_on(const struct attempt *attempt, int8_t side, in
 {
     struct step_q27 *s = attempt->s;
     const int32_t place = attempt->place;
-    const int32_t middle = y_at(attempt, place + (ONE - place) / 2);
+    const int32_t middle = y_at(attempt, place + fixed_floor_word(ONE - place, 1u));
     const struct normal_q27_piece piece = {.p1 = p, .p2 = middle, .p4 = attempt->y};
     const int32_t disc = signed_by(side, s->disc);
     struct slip_q27_view view = {signed_by(side, x), disc, disc, 0};
@@ -88,7 +81,10 @@ static BASE_NOINLINE bool slip_on(const struct attempt *attempt, int8_t side, in
     if (middle < 0 || end.v > disc) {
         return false;
     }
-    finish(attempt, side, signed_by(side, end.x), signed_by(side, end.v));
+    finish(attempt, side, signed_by(side, end.x), signed_by(side, end.v), s->mode == PLANT_STICK ? place : 0,
+           side < 0      ? ONE - place
+           : s->mode < 0 ? place
+                         : 0);
     s->rest = end.rest;
     return true;
 }
@@ -116,7 +112,7 @@ bool switch_q27_cross(struct step_q27 *s, const struct step_q27_coeffs *c, int32
         return false;
     }
     x = signed_by(side, event_q27_x_meeting(&c->fine, &view, end, last, attempt.place, NULL));
-    if (event_q27_is_held(c, x, s->disc, p, 0)) {
+    if (event_q27_is_held_surely(s, c, x, p) || event_q27_is_held(c, x, s->disc, p, 0)) {
         return stick_on(&attempt, x);
     }
     return signed_by(side, event_q27_need(c, x, s->disc) > 0 ? 1 : -1) < 0 && slip_on(&attempt, -side, x, p);
