@@ -15,11 +15,22 @@
 #include "model/scale.h"
 #include "model/slip_q27.h"
 
+/* How the steps to come are made while they are usual. It follows from what only an unusual step, an input or other
+ * coefficients may change. */
+enum step_q27_way {
+    STEP_Q27_PIECES,
+    STEP_Q27_SLIP_PHASE,
+    STEP_Q27_STICK_PHASE,
+    STEP_Q27_SLIP_MAP,
+    STEP_Q27_STICK_MAP,
+    STEP_Q27_TAME
+};
+
 struct step_q27_coeffs {
     struct slip_q27_factors fine, wide; /* of a whole step */
     int32_t drag;                       /* -h C in the format of wide */
     int32_t reach_max;                  /* the fast path serves a normal motion within it; 0: no motion at all */
-    uint8_t ways[3];                    /* of the usual step in each mode, from PLANT_SLIP_MINUS on: step_q27.c */
+    uint8_t ways[3];                    /* enum step_q27_way in each mode, from PLANT_SLIP_MINUS on */
     bool has_floor;
     bool is_naive; /* RK4 on the raw sign, no stick: for comparison only */
     struct normal_q27_coeffs normal;
@@ -46,7 +57,7 @@ struct step_q27 {
     int32_t disc;      /* disc speed held over the present step */
     int8_t mode;       /* enum plant_mode */
     bool is_saturated; /* something did not fit, now or before */
-    uint8_t way;       /* how the usual step is made now: step_q27.c */
+    uint8_t way;       /* enum step_q27_way */
     struct step_q27_turning turning;
     struct normal_q27 normal;
     struct plant_output output; /* of the last step */
