@@ -249,11 +249,13 @@ static BASE_NOINLINE void book_change(struct detector *detector, int32_t v)
 /* Forward slip, the whole step, is what is left of a period. */
 BASE_INLINE void book_shares(struct detector_frame *now, const struct plant_output *output)
 {
-    if (output->mode != PLANT_SLIP_PLUS || output->has_notes) {
-        const struct plant_notes notes = plant_notes(output);
-
-        now->stick += notes.stick;
-        now->slip_minus += notes.slip_minus;
+    if (BASE_UNLIKELY(output->has_notes)) {
+        now->stick += output->noted.stick;
+        now->slip_minus += output->noted.slip_minus;
+    } else if (output->mode == PLANT_STICK) {
+        now->stick += PLANT_SHARE_ONE;
+    } else if (output->mode == PLANT_SLIP_MINUS) {
+        now->slip_minus += PLANT_SHARE_ONE;
     }
 }
 
