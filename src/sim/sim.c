@@ -313,13 +313,15 @@ BASE_INLINE uint32_t hash_state(const struct sim *sim)
     return hash_word(hash, (uint32_t)(int32_t)sim_output(sim)->mode);
 }
 
-bool sim_step_unhashed(struct sim *sim) { return BASE_LIKELY(sim->is_usual) ? step_usual(sim) : step_any(sim); }
+BASE_INLINE bool step(struct sim *sim) { return BASE_LIKELY(sim->is_usual) ? step_usual(sim) : step_any(sim); }
+
+bool sim_step_unhashed(struct sim *sim) { return step(sim); }
 
 bool sim_step(struct sim *sim)
 {
-    const bool has_verdict = sim_step_unhashed(sim);
+    const bool has_verdict = step(sim);
 
-    if (sim->fault == SIM_FAULT_NONE) {
+    if (BASE_LIKELY(sim->fault == SIM_FAULT_NONE)) {
         sim->hash = hash_state(sim);
     }
     return has_verdict;
@@ -341,11 +343,11 @@ void sim_sample(const struct sim *sim, struct sample *sample)
     sample->v = words[1];
     sample->y = words[2];
     sample->w = words[3];
-    sample_forces(sim, sample);
+    sample->hash = sim->hash;
     sample->mode = sim_output(sim)->mode;
     sample->arithmetic = sim->plan->arithmetic;
     sample->propensity = sim->detector.verdict.propensity;
     sample->is_fault = sim->fault != SIM_FAULT_NONE;
     sample->watch = sim->watch.state;
-    sample->hash = sim->hash;
+    sample_forces(sim, sample);
 }

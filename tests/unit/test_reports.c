@@ -144,7 +144,7 @@ static void check_fault(void)
     executive_grant(&executive, 5u);
     plants_spend(&executive);
     tap_check(executive.sim.fault == SIM_FAULT_NONE && executive.sim.step == 5u &&
-                  !executive_propensity(&executive) == PROPENSITY_SQUEAL,
+                  executive_propensity(&executive) != PROPENSITY_SQUEAL,
               "a reset does");
 }
 
