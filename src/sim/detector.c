@@ -220,8 +220,6 @@ static BASE_NOINLINE void book_v(struct detector *detector, const struct plant_o
         set_band(&detector->v_band, now->v_min > 0 ? now->v_min : 1, now->v_max);
     } else if (v < 0) {
         set_band(&detector->v_band, now->v_min, now->v_max < 0 ? now->v_max : -1);
-    } else {
-        detector->v_band.count = 0u;
     }
 }
 
