@@ -206,7 +206,8 @@ static BASE_NOINLINE void book_x(struct detector *detector, int32_t x)
     }
 }
 
-/* Until it changes its sign, v is news beyond its extremes. */
+/* Until it changes its sign, v is news beyond its extremes. Nothing turns at 0, whose band is that of the side it came
+ * from. */
 static BASE_NOINLINE void book_v(struct detector *detector, const struct plant_output *output)
 {
     struct detector_frame *now = &detector->now;
