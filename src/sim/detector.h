@@ -98,8 +98,8 @@ struct detector {
     struct detector_config config;
     /* the step before */
     int32_t x1, v1;
-    /* what changes no extreme of the present frame, is no turn and no passage; it follows from the rest, and a band that
-     * is empty is found anew */
+    /* what changes no extreme of the present frame, is no turn and no passage; all of it follows from the rest, and a
+     * band that is empty is found anew */
     struct detector_band x_band, v_band, w_band, change_band;
     /* the present frame */
     struct detector_frame now;

@@ -278,8 +278,8 @@ static void walk_marks(struct snapshot_walk *walk, struct detector *detector)
     walk_u32(walk, &detector->search.head);
 }
 
-/* Its configuration follows from the plan and from what is held, its bands from what is walked. Counts and sums stand in
- * the image whole, whatever part of them the present period has. */
+/* Its configuration follows from the plan and from what is held, its bands from what is walked. Counts and sums stand
+ * in the image whole, whatever part of them the present period has. */
 static void walk_detector(struct snapshot_walk *walk, struct detector *detector)
 {
     int64_t v_sum = detector->frame_v_sum + detector->v_sum;
