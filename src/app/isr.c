@@ -46,8 +46,9 @@ static void work(struct executive *executive, uint32_t entered)
     const uint32_t elapsed = count_tick(entered);
     const bool has_worked = executive_tick(executive, true);
     const uint32_t busy = hal_clock_now() - entered;
+    const bool is_late = hal_tick_is_late();
 
-    if (!executive_book(executive, busy, elapsed, has_worked && hal_tick_is_late())) {
+    if (!executive_book(executive, busy, elapsed, has_worked && is_late)) {
         hal_tick_stop();
     }
 }

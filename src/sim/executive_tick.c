@@ -147,13 +147,13 @@ BASE_INLINE void prepare_step(struct executive *executive, const struct watch_pa
     }
 }
 
-/* Returns true when the detector has a new verdict. */
-BASE_INLINE bool make_steps(struct executive *executive, uint32_t steps, bool is_usual, const struct watch_pace *pace)
+/* Returns true when the detector has a new verdict. Without a pace there is nothing but steps. */
+BASE_INLINE bool make_steps(struct executive *executive, uint32_t steps, const struct watch_pace *pace)
 {
     bool has_news = false;
 
     for (; steps > 0u; steps--) {
-        if (!is_usual) {
+        if (pace != NULL) {
             prepare_step(executive, pace);
         }
         has_news |= sim_step(&executive->sim);
@@ -166,20 +166,18 @@ BASE_INLINE bool make_steps(struct executive *executive, uint32_t steps, bool is
 
 /* As many steps as are due, in free run or by credit, neither of which main can take back meanwhile. Returns true when
  * there is news: a verdict, or no credit left. */
-BASE_INLINE bool make_due_steps(struct executive *executive, bool is_usual)
+static bool make_due_steps(struct executive *executive)
 {
     const struct watch_config *watch = &executive->in_force.plan.watch;
-    uint32_t steps = executive->in_force.substeps;
-    uint32_t credit;
-    bool has_news;
+    const bool is_free = word_read(&executive->is_free) != 0u;
+    const uint32_t credit = is_free ? UINT32_MAX : executive_credit(executive);
+    const uint32_t substeps = executive->in_force.substeps;
+    const uint32_t steps = credit < substeps ? credit : substeps;
+    const bool has_news = make_steps(executive, steps, is_free ? &watch->free : &watch->locked);
 
-    if (word_read(&executive->is_free) != 0u) {
-        return make_steps(executive, steps, is_usual, &watch->free);
+    if (!is_free) {
+        word_write(&executive->used, word_read(&executive->used) + steps);
     }
-    credit = executive_credit(executive);
-    steps = credit < steps ? credit : steps;
-    has_news = make_steps(executive, steps, is_usual, &watch->locked);
-    word_write(&executive->used, word_read(&executive->used) + steps);
     return has_news || steps == credit;
 }
 
@@ -203,11 +201,11 @@ static BASE_NOINLINE void answer_call(struct executive *executive, uint8_t watch
     }
 }
 
-/* The usual tick has nothing but steps to make. */
+/* The usual tick is one of a free run and has nothing but steps to make. */
 BASE_INLINE bool is_usual_tick(const struct executive *executive)
 {
-    return !publish_has_new(&executive->publish) && executive->to_shed == 0u && !has_inputs(executive) &&
-           executive->sim.watch.state == WATCH_OFF;
+    return word_read(&executive->is_free) != 0u && !publish_has_new(&executive->publish) && executive->to_shed == 0u &&
+           !has_inputs(executive) && executive->sim.watch.state == WATCH_OFF;
 }
 
 static BASE_NOINLINE bool make_unusual_tick(struct executive *executive, bool is_due)
@@ -232,7 +230,7 @@ static BASE_NOINLINE bool make_unusual_tick(struct executive *executive, bool is
     if (has_inputs(executive)) {
         collect_inputs(executive); /* none comes meanwhile */
     }
-    has_news = make_due_steps(executive, false);
+    has_news = make_due_steps(executive);
     end_tick(executive, has_news || executive->sim.watch.state != watch_before);
     return true;
 }
@@ -242,7 +240,7 @@ bool executive_tick(struct executive *executive, bool is_due)
     if (BASE_UNLIKELY(!is_due || !is_usual_tick(executive))) {
         return make_unusual_tick(executive, is_due);
     }
-    end_tick(executive, make_due_steps(executive, true));
+    end_tick(executive, make_steps(executive, executive->in_force.substeps, NULL));
     return true;
 }
 
