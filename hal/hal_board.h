@@ -20,7 +20,7 @@ void hal_exit(int code) __attribute__((noreturn));
 /* One byte out at once, waiting for the line if need be: for a last word before hal_exit, with interrupts off. [ANY] */
 void hal_board_panic_write(char byte);
 
-/* Sets the pin or LED that follows the propensity: lit while the brake squeals. [ISR] */
+/* Sets the pin or LED that follows the propensity: lit while the brake squeals. Called when that changes. [ISR] */
 void hal_flag_set(bool is_squealing);
 
 /* Called by main when it has nothing to do; returns after an interrupt or a while. Must not sleep while an emulator's

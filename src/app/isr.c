@@ -1,57 +1,78 @@
 /* The tick: the executive's work, its time, the pin. Nothing here talks or waits. */
 #include "app/isr.h"
 
+#include "base/compiler.h"
 #include "base/word.h"
 #include "hal_board.h"
 #include "hal_tick.h"
 
-static struct executive *executive;
-
 /* The interrupt's, but for the baseline: main sets it while the timer stands still. */
 static struct {
+    struct executive *executive;
     uint32_t rate_hz;
-    uint32_t period;               /* clock counts */
-    uint32_t last_clock;           /* of the tick before, or of the start */
-    struct word counted, expected; /* ticks that came, ticks that should have */
+    uint32_t period;             /* clock counts */
+    uint32_t last_clock;         /* of the tick before, or of the start */
+    struct word counted, missed; /* ticks that came, ticks that should have beside them */
+    uint8_t propensity;          /* that the pin shows */
 } timer;
 
-void isr_init(struct executive *which) { executive = which; }
+void isr_init(struct executive *which) { timer.executive = which; }
 
-/* Clock counts since the tick before; whole periods of them, one if none was lost, are expected ticks. While ticks are
- * shed after an overrun some must get lost: that is counted there, and is no fault of the timer. */
+/* So many ticks should have come instead of one. While ticks are shed after an overrun some must get lost: that is
+ * counted there, and is no fault of the timer. */
+static BASE_NOINLINE void count_missed(uint32_t expected)
+{
+    if (!executive_is_behind(timer.executive)) {
+        word_write(&timer.missed, word_read(&timer.missed) + expected - 1u);
+    }
+}
+
+/* Clock counts since the tick before; whole periods of them are ticks that should have come. */
 static uint32_t count_tick(uint32_t now)
 {
     const uint32_t elapsed = now - timer.last_clock;
+    const uint32_t rounded = elapsed + timer.period / 2u;
 
-    word_write(&timer.counted, word_read(&timer.counted) + 1u);
-    word_write(&timer.expected,
-               word_read(&timer.expected) +
-                   (executive_is_behind(executive) ? 1u : (elapsed + timer.period / 2u) / timer.period));
     timer.last_clock = now;
+    word_write(&timer.counted, word_read(&timer.counted) + 1u);
+    if (BASE_UNLIKELY(rounded - timer.period >= timer.period)) {
+        count_missed(rounded / timer.period);
+    }
     return elapsed;
 }
 
-static void work(uint32_t entered)
+static void work(struct executive *executive, uint32_t entered)
 {
-    struct executive_tick_time time = {.elapsed = count_tick(entered), .period = timer.period};
+    const uint32_t elapsed = count_tick(entered);
     const bool has_worked = executive_tick(executive, true);
+    const uint32_t busy = hal_clock_now() - entered;
+    const bool is_late = hal_tick_is_late();
 
-    time.busy = hal_clock_now() - entered;
-    if (!executive_book(executive, &time, has_worked && hal_tick_is_late())) {
+    if (!executive_book(executive, busy, elapsed, has_worked && is_late)) {
         hal_tick_stop();
+    }
+}
+
+/* The pin follows the propensity. */
+static void show(uint8_t propensity)
+{
+    if (BASE_UNLIKELY(propensity != timer.propensity)) {
+        timer.propensity = propensity;
+        hal_flag_set(propensity == PROPENSITY_SQUEAL);
     }
 }
 
 void app_tick(void)
 {
+    struct executive *const executive = timer.executive;
     const uint32_t entered = hal_clock_now();
 
-    if (hal_tick_take()) {
-        work(entered);
+    if (BASE_LIKELY(hal_tick_take())) {
+        work(executive, entered);
     } else {
         (void)executive_tick(executive, false);
     }
-    hal_flag_set(executive_is_squealing(executive));
+    show(executive_propensity(executive));
 }
 
 static void start_timer(uint32_t rate_hz)
@@ -62,12 +83,15 @@ static void start_timer(uint32_t rate_hz)
     hal_tick_stop();
     timer.rate_hz = rate_hz;
     timer.period = (hal_clock_hz() + rate_hz / 2u) / rate_hz;
+    executive_begin_rate(timer.executive, timer.period);
     timer.last_clock = hal_clock_now();
     hal_tick_start(rate_hz);
 }
 
 void isr_follow(void)
 {
+    struct executive *const executive = timer.executive;
+
     if (executive_has_order(executive)) {
         hal_tick_trigger();
     }
@@ -78,4 +102,9 @@ void isr_follow(void)
     }
 }
 
-struct isr_ticks isr_ticks(void) { return (struct isr_ticks){word_read(&timer.counted), word_read(&timer.expected)}; }
+struct isr_ticks isr_ticks(void)
+{
+    const uint32_t counted = word_read(&timer.counted);
+
+    return (struct isr_ticks){counted, counted + word_read(&timer.missed)};
+}

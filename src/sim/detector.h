@@ -87,15 +87,25 @@ struct detector_search {
     uint32_t head;  /* strobes or peaks written when the search began */
 };
 
+/* Values that are no news, so many from low on. */
+struct detector_band {
+    int32_t low;
+    uint32_t count;
+};
+
 struct detector {
+    uint32_t phase; /* steps into the present period */
     struct detector_config config;
     /* the step before */
     int32_t x1, v1;
-    uint32_t phase; /* steps into the present period */
+    /* what changes no extreme of the present frame, is no turn and no passage; all of it follows from the rest, and a
+     * band that is empty is found anew */
+    struct detector_band x_band, v_band, w_band, change_band;
     /* the present frame */
     struct detector_frame now;
     uint64_t change_sum; /* squared second differences of the strobes */
-    int64_t v_sum;
+    int32_t v_sum;       /* of the present period, of at most 1024 steps */
+    int64_t frame_v_sum;
     uint64_t v_square_sum;
     uint32_t periods;
     /* the window */
@@ -104,7 +114,7 @@ struct detector {
     uint32_t evidence;         /* for squeal, gathered frame by frame, forgotten slowly */
     int32_t level, hysteresis; /* of the crossings */
     bool is_below;
-    uint64_t step;
+    uint64_t period_step; /* since reset, at the begin of the present period */
     /* strobes and maxima */
     int32_t strobe_x[DETECTOR_STROBES], strobe_v[DETECTOR_STROBES];
     int32_t peak_x[DETECTOR_PEAKS];
@@ -114,6 +124,15 @@ struct detector {
     struct detector_verdict verdict;
     bool has_diverged;
 };
+
+/* Steps since reset. [ANY] */
+static inline uint64_t detector_step(const struct detector *detector)
+{
+    return detector->period_step + detector->phase;
+}
+
+/* Something that the bands follow from was changed: to be called then. [ISR] */
+void detector_empty_bands(struct detector *detector);
 
 /* Forgets everything and starts with the present state. [ISR] */
 void detector_reset(struct detector *detector, const struct detector_config *config, const struct plant_output *now);

@@ -36,7 +36,7 @@ void detector_rules_measure(struct detector *detector)
     struct detector_frame *frame = detector_newest_frame(detector);
     struct detector_verdict *verdict = &detector->verdict;
     const uint32_t shift = frame_shift(detector);
-    const int64_t mean = fixed_shift_right(detector->v_sum, shift);
+    const int64_t mean = fixed_shift_right(detector->frame_v_sum, shift);
 
     verdict->variance = detector->v_square_sum >> shift;
     verdict->variance -= verdict->variance > (uint64_t)(mean * mean) ? (uint64_t)(mean * mean) : verdict->variance;

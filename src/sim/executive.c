@@ -204,14 +204,6 @@ void executive_halt(struct executive *executive)
     give_order(executive);
 }
 
-uint32_t executive_credit(const struct executive *executive)
-{
-    const uint32_t credit = word_read(&executive->granted) - word_read(&executive->used);
-
-    /* Taken back while the interrupt used some of it: less than nothing is nothing. */
-    return word_read(&executive->is_free) != 0u || credit > EXECUTIVE_GRANT_MAX ? 0u : credit;
-}
-
 const struct params *executive_params(const struct executive *executive) { return &executive->draft.plan.params; }
 
 const struct sim_plan *executive_plan(const struct executive *executive) { return &executive->draft.plan; }

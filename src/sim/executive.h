@@ -15,6 +15,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 
+#include "base/compiler.h"
 #include "base/errors.h"
 #include "base/handoff.h"
 #include "base/ring.h"
@@ -72,7 +73,8 @@ struct executive {
     struct sim sim;
     struct executive_load load;
     uint32_t until_sample, until_report;
-    uint32_t to_shed; /* ticks to skip after an overrun */
+    uint32_t to_shed;    /* ticks to skip after an overrun */
+    uint32_t busy_usual; /* clock counts of a tick up to which it is neither the longest nor an overrun */
 
     /* single words, one writer each */
     struct word granted;       /* main: steps granted so far */
@@ -154,8 +156,13 @@ void executive_stop(struct executive *executive);
  * [MAIN] */
 void executive_halt(struct executive *executive);
 
-/* Steps of credit left; 0 in free run. [ANY] */
-uint32_t executive_credit(const struct executive *executive);
+/* Steps of credit left; 0 in free run, and where a stop came while some were being used. [ANY] */
+static inline uint32_t executive_credit(const struct executive *executive)
+{
+    const uint32_t left = word_read(&executive->granted) - word_read(&executive->used);
+
+    return word_read(&executive->is_free) == 0u && left <= EXECUTIVE_GRANT_MAX ? left : 0u;
+}
 
 /* Should the timer run? [ANY] */
 static inline bool executive_wants_tick(const struct executive *executive)
@@ -179,25 +186,39 @@ const struct scale *executive_scale(const struct executive *executive, uint8_t e
  * the tick was shed. [ISR] */
 bool executive_tick(struct executive *executive, bool is_due);
 
-/* What one tick took, in counts of the program's clock. */
-struct executive_tick_time {
-    uint32_t busy;    /* from its begin to its end */
-    uint32_t elapsed; /* since the tick before */
-    uint32_t period;  /* between two ticks by the timer's setting */
-};
+/* Ticks come at another rate from here on, so many counts of the program's clock apart, and what was booked belonged to
+ * the old one; does nothing at the same rate. While none comes. [MAIN] */
+void executive_begin_rate(struct executive *executive, uint32_t period);
 
-/* Books a tick's time. One that was late, or left main less than 1/16 of the period, is an overrun: as many ticks as it
- * took periods are shed after it, and one more, so that main has at least half of the time whatever the load. A tick
- * that was shed is never late. Returns whether the timer should go on. [ISR] */
-bool executive_book(struct executive *executive, const struct executive_tick_time *time, bool is_late);
+/* The rest of executive_book(). [ISR] */
+void executive_book_unusual(struct executive *executive, uint32_t busy, bool is_late);
+void executive_book_end(struct executive *executive);
+
+/* Books a tick's time, in counts of the program's clock: from its begin to its end, and since the tick before. One that
+ * was late, or left main less than 1/16 of the period, is an overrun: as many ticks as it took periods are shed after
+ * it, and one more, so that main has at least half of the time whatever the load. A tick that was shed is never late.
+ * Returns whether the timer should go on. [ISR] */
+static inline bool executive_book(struct executive *executive, uint32_t busy, uint32_t elapsed, bool is_late)
+{
+    executive->load.busy_sum += busy;
+    executive->load.elapsed += elapsed;
+    if (BASE_UNLIKELY(is_late || busy > executive->busy_usual)) {
+        executive_book_unusual(executive, busy, is_late);
+    }
+    if (BASE_UNLIKELY(!executive_wants_tick(executive))) {
+        executive_book_end(executive);
+        return false;
+    }
+    return true;
+}
 
 /* Ticks are being shed after an overrun. [ISR] */
 static inline bool executive_is_behind(const struct executive *executive) { return executive->to_shed != 0u; }
 
-/* The propensity at this step, for the pin. [ISR] */
-static inline bool executive_is_squealing(const struct executive *executive)
+/* enum detector_propensity at this step, for the pin. [ISR] */
+static inline uint8_t executive_propensity(const struct executive *executive)
 {
-    return executive->sim.detector.verdict.propensity == PROPENSITY_SQUEAL;
+    return executive->sim.detector.verdict.propensity;
 }
 
 #endif

@@ -31,7 +31,7 @@ static BASE_NOINLINE void write_report(struct executive *executive)
 }
 
 /* A full ring counts the drop itself, and so does the number of the next sample. */
-static void push_sample(struct executive *executive)
+static BASE_NOINLINE void push_sample(struct executive *executive)
 {
     const uint32_t number = executive->samples.head + executive->samples.dropped;
     struct sample *sample = ring_reserve(&executive->samples);
@@ -82,15 +82,15 @@ static BASE_NOINLINE void collect_inputs(struct executive *executive)
     word_write(&executive->inputs_queued, executive->inputs_waiting.count);
 }
 
-/* The usual tick has none. */
 BASE_INLINE bool has_inputs(const struct executive *executive)
 {
-    return executive->inputs_waiting.count != 0u || ring_fill(&executive->inputs) != 0u;
+    return word_read(&executive->inputs_queued) != 0u || ring_fill(&executive->inputs) != 0u;
 }
 
 static void take_reset(struct executive *executive, const struct executive_order *order)
 {
-    executive->load = (struct executive_load){0};
+    executive->load = (struct executive_load){.period = executive->load.period};
+    executive->busy_usual = 0u;
     executive->inputs_waiting.count = 0u;
     if (order->is_restore) {
         snapshot_restore(executive->image, &executive->sim, &executive->inputs_waiting);
@@ -136,48 +136,58 @@ static void pass_time(struct executive *executive, uint32_t ticks)
     }
 }
 
-/* One step, and before it whatever belongs to it. Returns true when the detector has a new verdict. */
-BASE_INLINE bool make_step(struct executive *executive, const struct watch_pace *pace)
+/* What belongs before a step, where there is more to a tick than steps. */
+BASE_INLINE void prepare_step(struct executive *executive, const struct watch_pace *pace)
 {
-    bool has_news;
-
     if (BASE_UNLIKELY(executive->inputs_waiting.count != 0u)) {
         take_due_inputs(executive);
     }
     if (BASE_UNLIKELY(executive->sim.watch.state != WATCH_OFF)) {
         sim_watch(&executive->sim, pace);
     }
-    has_news = sim_step(&executive->sim);
-    if (executive->in_force.sample_every != 0u && --executive->until_sample == 0u) {
-        push_sample(executive);
-    }
-    return has_news;
 }
 
-static bool make_steps(struct executive *executive, uint32_t steps, const struct watch_pace *pace)
+/* Returns true when the detector has a new verdict. Without a pace there is nothing but steps. */
+BASE_INLINE bool make_steps(struct executive *executive, uint32_t steps, const struct watch_pace *pace)
 {
     bool has_news = false;
 
     for (; steps > 0u; steps--) {
-        has_news = make_step(executive, pace) || has_news;
+        if (pace != NULL) {
+            prepare_step(executive, pace);
+        }
+        has_news |= sim_step(&executive->sim);
+        if (executive->until_sample != 0u && --executive->until_sample == 0u) {
+            push_sample(executive);
+        }
     }
     return has_news;
 }
 
-/* As many steps as are due, in free run or by credit. Returns true when the detector has a new verdict. */
-BASE_INLINE bool make_due_steps(struct executive *executive)
+/* As many steps as are due, in free run or by credit, neither of which main can take back meanwhile. Returns true when
+ * there is news: a verdict, or no credit left. */
+static bool make_due_steps(struct executive *executive)
 {
     const struct watch_config *watch = &executive->in_force.plan.watch;
-    uint32_t steps = executive->in_force.substeps;
-    bool has_news;
+    const bool is_free = word_read(&executive->is_free) != 0u;
+    const uint32_t credit = is_free ? UINT32_MAX : executive_credit(executive);
+    const uint32_t substeps = executive->in_force.substeps;
+    const uint32_t steps = credit < substeps ? credit : substeps;
+    const bool has_news = make_steps(executive, steps, is_free ? &watch->free : &watch->locked);
 
-    if (word_read(&executive->is_free) != 0u) {
-        return make_steps(executive, steps, &watch->free);
+    if (!is_free) {
+        word_write(&executive->used, word_read(&executive->used) + steps);
     }
-    steps = executive_credit(executive) < steps ? executive_credit(executive) : steps;
-    has_news = make_steps(executive, steps, &watch->locked);
-    word_write(&executive->used, word_read(&executive->used) + steps);
-    return has_news;
+    return has_news || steps == credit;
+}
+
+BASE_INLINE void end_tick(struct executive *executive, bool has_news)
+{
+    executive->load.ticks++;
+    executive->until_report--;
+    if (BASE_UNLIKELY(has_news || executive->until_report == 0u)) {
+        write_report(executive);
+    }
 }
 
 /* A tick of no period: main has called for it. */
@@ -191,72 +201,81 @@ static BASE_NOINLINE void answer_call(struct executive *executive, uint8_t watch
     }
 }
 
-bool executive_tick(struct executive *executive, bool is_due)
+/* The usual tick is one of a free run and has nothing but steps to make. */
+BASE_INLINE bool is_usual_tick(const struct executive *executive)
+{
+    return word_read(&executive->is_free) != 0u && !publish_has_new(&executive->publish) && executive->to_shed == 0u &&
+           !has_inputs(executive) && executive->sim.watch.state == WATCH_OFF;
+}
+
+static BASE_NOINLINE bool make_unusual_tick(struct executive *executive, bool is_due)
 {
     uint8_t watch_before;
     bool has_news;
 
-    if (BASE_UNLIKELY(publish_has_new(&executive->publish))) {
+    if (publish_has_new(&executive->publish)) {
         take_order(executive);
     }
     watch_before = executive->sim.watch.state;
-    if (BASE_UNLIKELY(!is_due)) {
+    if (!is_due) {
         answer_call(executive, watch_before);
         return false;
     }
-    if (BASE_UNLIKELY(executive->to_shed != 0u)) {
+    if (executive->to_shed != 0u) {
         executive->to_shed--;
         executive->load.shed++;
         pass_time(executive, 1u);
         return false;
     }
-    if (BASE_UNLIKELY(has_inputs(executive))) {
+    if (has_inputs(executive)) {
         collect_inputs(executive); /* none comes meanwhile */
     }
-    has_news = make_due_steps(executive) || executive->sim.watch.state != watch_before;
-    executive->load.ticks++;
-    if (BASE_UNLIKELY(has_news || --executive->until_report == 0u || !executive_wants_tick(executive))) {
-        write_report(executive);
-    }
+    has_news = make_due_steps(executive);
+    end_tick(executive, has_news || executive->sim.watch.state != watch_before);
     return true;
 }
 
-/* A new rate: what was booked belongs to the old one. */
-static BASE_NOINLINE void begin_period(struct executive_load *load, uint32_t period)
+bool executive_tick(struct executive *executive, bool is_due)
 {
-    load->period = period;
-    load->busy_max = 0u;
-    load->busy_sum = 0u;
-    load->elapsed = 0u;
+    if (BASE_UNLIKELY(!is_due || !is_usual_tick(executive))) {
+        return make_unusual_tick(executive, is_due);
+    }
+    end_tick(executive, make_steps(executive, executive->in_force.substeps, NULL));
+    return true;
 }
 
-static BASE_NOINLINE void book_overrun(struct executive *executive, const struct executive_tick_time *time)
+void executive_begin_rate(struct executive *executive, uint32_t period)
 {
-    const uint32_t periods = time->busy / time->period;
+    struct executive_load *load = &executive->load;
+
+    if (load->period != period) {
+        load->period = period;
+        load->busy_max = 0u;
+        load->busy_sum = 0u;
+        load->elapsed = 0u;
+        executive->busy_usual = 0u;
+    }
+}
+
+static void book_overrun(struct executive *executive, uint32_t busy)
+{
+    const uint32_t periods = busy / executive->load.period;
 
     executive->load.overruns++;
     executive->to_shed = periods + 1u;
     pass_time(executive, periods > 1u ? periods - 1u : 0u); /* of the ticks meanwhile the timer kept one */
 }
 
-bool executive_book(struct executive *executive, const struct executive_tick_time *time, bool is_late)
+void executive_book_unusual(struct executive *executive, uint32_t busy, bool is_late)
 {
     struct executive_load *load = &executive->load;
+    const uint32_t most = load->period - load->period / MAIN_SHARE;
 
-    if (BASE_UNLIKELY(load->period != time->period)) {
-        begin_period(load, time->period);
+    load->busy_max = busy > load->busy_max ? busy : load->busy_max;
+    executive->busy_usual = load->busy_max < most ? load->busy_max : most;
+    if (is_late || busy > most) {
+        book_overrun(executive, busy);
     }
-    load->busy_sum += time->busy;
-    load->elapsed += time->elapsed;
-    if (BASE_UNLIKELY(time->busy > load->busy_max)) {
-        load->busy_max = time->busy;
-    }
-    if (BASE_UNLIKELY(is_late || time->busy > time->period - time->period / MAIN_SHARE)) {
-        book_overrun(executive, time);
-    }
-    if (BASE_UNLIKELY(!executive_wants_tick(executive))) {
-        write_report(executive); /* the last tick's time is in it too */
-        return false;
-    }
-    return true;
 }
+
+void executive_book_end(struct executive *executive) { write_report(executive); }

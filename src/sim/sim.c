@@ -134,18 +134,20 @@ static bool is_outside(const struct sim *sim)
 }
 
 /* The states as words, in the order in which they are hashed. */
-BASE_INLINE void state_words(const struct sim *sim, uint32_t words[4])
+BASE_INLINE void state_words(const struct sim *sim, uint32_t words[5])
 {
     if (sim->plan->arithmetic == ARITH_Q27) {
         words[0] = (uint32_t)sim->q27.x;
         words[1] = (uint32_t)sim->q27.v;
         words[2] = (uint32_t)sim->q27.normal.y;
         words[3] = (uint32_t)sim->q27.normal.w;
+        words[4] = (uint32_t)(int32_t)sim->q27.output.mode;
     } else {
         words[0] = fmath_bits(sim->f32.x);
         words[1] = fmath_bits(sim->f32.v);
         words[2] = fmath_bits(sim->f32.normal.y);
         words[3] = fmath_bits(sim->f32.normal.w);
+        words[4] = (uint32_t)(int32_t)sim->f32.output.mode;
     }
 }
 
@@ -302,7 +304,7 @@ static BASE_NOINLINE bool step_any(struct sim *sim)
 
 BASE_INLINE uint32_t hash_state(const struct sim *sim)
 {
-    uint32_t words[4];
+    uint32_t words[5];
     uint32_t hash = sim->hash;
 
     state_words(sim, words);
@@ -310,16 +312,18 @@ BASE_INLINE uint32_t hash_state(const struct sim *sim)
     hash = hash_word(hash, words[1]);
     hash = hash_word(hash, words[2]);
     hash = hash_word(hash, words[3]);
-    return hash_word(hash, (uint32_t)(int32_t)sim_output(sim)->mode);
+    return hash_word(hash, words[4]);
 }
 
-bool sim_step_unhashed(struct sim *sim) { return BASE_LIKELY(sim->is_usual) ? step_usual(sim) : step_any(sim); }
+BASE_INLINE bool step(struct sim *sim) { return BASE_LIKELY(sim->is_usual) ? step_usual(sim) : step_any(sim); }
+
+bool sim_step_unhashed(struct sim *sim) { return step(sim); }
 
 bool sim_step(struct sim *sim)
 {
-    const bool has_verdict = sim_step_unhashed(sim);
+    const bool has_verdict = step(sim);
 
-    if (sim->fault == SIM_FAULT_NONE) {
+    if (BASE_LIKELY(sim->fault == SIM_FAULT_NONE)) {
         sim->hash = hash_state(sim);
     }
     return has_verdict;
@@ -333,7 +337,7 @@ void sim_measure(struct sim *sim, uint64_t steps)
 
 void sim_sample(const struct sim *sim, struct sample *sample)
 {
-    uint32_t words[4];
+    uint32_t words[5];
 
     state_words(sim, words);
     sample->step = sim->step;
@@ -341,11 +345,11 @@ void sim_sample(const struct sim *sim, struct sample *sample)
     sample->v = words[1];
     sample->y = words[2];
     sample->w = words[3];
-    sample_forces(sim, sample);
-    sample->mode = sim_output(sim)->mode;
+    sample->hash = sim->hash;
+    sample->mode = (int8_t)words[4];
     sample->arithmetic = sim->plan->arithmetic;
     sample->propensity = sim->detector.verdict.propensity;
     sample->is_fault = sim->fault != SIM_FAULT_NONE;
     sample->watch = sim->watch.state;
-    sample->hash = sim->hash;
+    sample_forces(sim, sample);
 }

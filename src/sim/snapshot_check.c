@@ -162,9 +162,9 @@ static bool is_sound_detector(const struct detector *detector, const struct dete
         }
     }
     return is_sound_frame(&detector->now) && detector->phase < config->steps_per_period &&
-           detector->periods < DETECTOR_FRAME_PERIODS && detector->v_sum >= -SPEED_SUM_MAX &&
-           detector->v_sum <= SPEED_SUM_MAX && detector->evidence <= EVIDENCE_MOST && detector->hysteresis >= 0 &&
-           (int64_t)detector->level - detector->hysteresis >= -INT32_MAX && detector->step <= STEPS_MAX &&
+           detector->periods < DETECTOR_FRAME_PERIODS && detector->frame_v_sum >= -SPEED_SUM_MAX &&
+           detector->frame_v_sum <= SPEED_SUM_MAX && detector->evidence <= EVIDENCE_MOST && detector->hysteresis >= 0 &&
+           (int64_t)detector->level - detector->hysteresis >= -INT32_MAX && detector_step(detector) <= STEPS_MAX &&
            is_sound_search(detector) && is_sound_verdict(&detector->verdict) && !detector->has_diverged;
 }
 

@@ -278,15 +278,19 @@ static void walk_marks(struct snapshot_walk *walk, struct detector *detector)
     walk_u32(walk, &detector->search.head);
 }
 
-/* Its configuration follows from the plan and from what is held. */
+/* Its configuration follows from the plan and from what is held, its bands from what is walked. Counts and sums stand
+ * in the image whole, whatever part of them the present period has. */
 static void walk_detector(struct snapshot_walk *walk, struct detector *detector)
 {
+    int64_t v_sum = detector->frame_v_sum + detector->v_sum;
+    uint64_t step = detector_step(detector);
+
     walk_i32(walk, &detector->x1);
     walk_i32(walk, &detector->v1);
     walk_u32(walk, &detector->phase);
     walk_frame(walk, &detector->now);
     walk_u64(walk, &detector->change_sum);
-    walk_i64(walk, &detector->v_sum);
+    walk_i64(walk, &v_sum);
     walk_u64(walk, &detector->v_square_sum);
     walk_u32(walk, &detector->periods);
     for (unsigned i = 0u; i < DETECTOR_WINDOW_FRAMES; i++) {
@@ -297,10 +301,16 @@ static void walk_detector(struct snapshot_walk *walk, struct detector *detector)
     walk_i32(walk, &detector->level);
     walk_i32(walk, &detector->hysteresis);
     walk_flag(walk, &detector->is_below);
-    walk_u64(walk, &detector->step);
+    walk_u64(walk, &step);
     walk_marks(walk, detector);
     walk_verdict(walk, &detector->verdict);
     walk_flag(walk, &detector->has_diverged);
+    if (walk->writer == NULL) {
+        detector->frame_v_sum = v_sum;
+        detector->v_sum = 0;
+        detector->period_step = step - detector->phase;
+        detector_empty_bands(detector);
+    }
 }
 
 static void walk_input(struct snapshot_walk *walk, struct input *input)

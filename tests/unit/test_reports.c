@@ -16,11 +16,12 @@ static const struct executive_report *look(void)
 static void check_overrun(void)
 {
     plants_executive(&executive, "N0 1");
+    executive_begin_rate(&executive, 1000u);
     executive_free_run(&executive);
     plants_ticks(&executive, 10u);
-    (void)executive_book(&executive, &(struct executive_tick_time){700u, 1000u, 1000u}, false);
-    (void)executive_book(&executive, &(struct executive_tick_time){1200u, 1000u, 1000u}, true);
-    (void)executive_book(&executive, &(struct executive_tick_time){100u, 2000u, 1000u}, false);
+    (void)executive_book(&executive, 700u, 1000u, false);
+    (void)executive_book(&executive, 1200u, 1000u, true);
+    (void)executive_book(&executive, 100u, 2000u, false);
     plants_ticks(&executive, 2u);
     tap_check(executive.sim.step == 10u && executive.load.shed == 2u && executive.load.ticks == 10u,
               "after a tick of 1.2 periods two are shed");
@@ -29,7 +30,7 @@ static void check_overrun(void)
     tap_check(executive.load.overruns == 1u && executive.load.busy_max == 1200u && executive.load.busy_sum == 2000u &&
                   executive.load.elapsed == 4000u && executive.load.period == 1000u,
               "what ticks took is booked");
-    (void)executive_book(&executive, &(struct executive_tick_time){250000u, 250000u, 1000u}, true);
+    (void)executive_book(&executive, 250000u, 250000u, true);
     tap_check(executive.to_shed == 251u, "a tick of 250 periods is followed by 251 that leave the time to main");
     (void)plants_order(&executive, "N0 2", false, NULL);
     executive_tick(&executive, true);
@@ -128,7 +129,7 @@ static void check_fault(void)
     step = executive.sim.step;
     hash = executive.sim.hash;
     tap_check(executive.sim.fault == SIM_FAULT_DOMAIN && look()->now.is_fault == 1u &&
-                  executive_is_squealing(&executive),
+                  executive_propensity(&executive) == PROPENSITY_SQUEAL,
               "a plant that diverges ends in a fault, which is reported at once");
     executive_stream(&executive, 5u);
     plants_ticks(&executive, 50u);
@@ -142,7 +143,8 @@ static void check_fault(void)
     plants_executive(&executive, "N0 1");
     executive_grant(&executive, 5u);
     plants_spend(&executive);
-    tap_check(executive.sim.fault == SIM_FAULT_NONE && executive.sim.step == 5u && !executive_is_squealing(&executive),
+    tap_check(executive.sim.fault == SIM_FAULT_NONE && executive.sim.step == 5u &&
+                  executive_propensity(&executive) != PROPENSITY_SQUEAL,
               "a reset does");
 }
 

@@ -357,12 +357,12 @@ static void check_detectors(void)
     make_forged((float)ARITH_F32, "");
     REFUSES(detector.phase = 64u);
     REFUSES(detector.periods = DETECTOR_FRAME_PERIODS);
-    REFUSES(detector.v_sum = INT64_C(1) << 40);
-    REFUSES(detector.v_sum = -(INT64_C(1) << 40));
+    REFUSES(detector.frame_v_sum = INT64_C(1) << 40);
+    REFUSES(detector.frame_v_sum = -(INT64_C(1) << 40));
     REFUSES(detector.evidence = 17u);
     REFUSES(detector.hysteresis = -1);
     REFUSES(detector.level = INT32_MIN);
-    REFUSES(detector.step = UINT64_MAX);
+    REFUSES(detector.period_step = UINT64_C(1) << 63);
     REFUSES(detector.has_diverged = true);
     REFUSES(detector.search.stage = 5u);
     REFUSES(detector.search.period = 18u);

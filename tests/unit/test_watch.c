@@ -400,13 +400,12 @@ static void check_free_run(void)
 /* Ticks that are late or shed make no steps, but the time is gone. */
 static void check_overrun(void)
 {
-    const struct executive_tick_time late = {.busy = 3500u, .elapsed = 1000u, .period = 1000u};
-
     plants_executive(&executive, "N0 2 N_max 8 tick 100 substeps 7 stale 0.0995");
+    executive_begin_rate(&executive, 1000u);
     (void)demand(4.0f, INPUT_NOW);
     (void)executive_free_run(&executive);
     tick_free(1u);
-    (void)executive_book(&executive, &late, true);
+    (void)executive_book(&executive, 3500u, 1000u, true);
     tick_free(4u); /* shed */
     tap_check(executive.load.shed == 4u && executive.sim.step == 7u, "a tick of 3.5 periods");
     tick_free(4u);
