@@ -52,6 +52,7 @@ void normal_f32_configure(struct normal_f32_coeffs *coeffs, const struct params 
     coeffs->has_phase = coeffs->is_exact && scale->normal_damping == 0.0f && coeffs->contact != CONTACT_LIFT;
     coeffs->full = make_map(scale->normal_damping, scale->step);
     coeffs->half = make_map(scale->normal_damping, 0.5f * scale->step);
+    coeffs->between = 0.5f / (1.0f + coeffs->half.yy);
 }
 
 /* Printed, the contact pulls where y < 0; the other modes know no pull, and neither does the rounding of a touch at
@@ -89,6 +90,17 @@ void normal_f32_set_load(struct normal_f32 *normal, const struct normal_f32_coef
     }
 }
 
+bool normal_f32_is_calm(const struct normal_f32 *normal)
+{
+    const float cosine = fmath_abs(normal->cosine);
+    const float sine = fmath_abs(normal->sine);
+
+    /* The sum is the amplitude where it starts from rest, and then y touches 0; otherwise the root of squares leaves room
+     * for rounding. */
+    return cosine + sine <= normal->n ||
+           (normal->n >= 0.0f && cosine * cosine + sine * sine < 0.999f * normal->n * normal->n);
+}
+
 /* Part of a step, or one without the spring, in closed form. */
 static void look_series(const struct normal_f32 *normal, const struct normal_f32_coeffs *coeffs, float duration,
                         struct normal_f32_piece *piece)
@@ -114,8 +126,7 @@ void normal_f32_look(const struct normal_f32 *normal, const struct normal_f32_co
         normal_f32_look_rk4(normal, coeffs, duration, normal->is_lifted ? 0.0f : 1.0f, piece);
         normal_f32_press(normal, piece);
     } else if (is_whole && !normal->is_lifted) {
-        normal_f32_look_end(normal, &coeffs->full, piece);
-        normal_f32_look_middle(normal, coeffs, piece);
+        normal_f32_look_map(normal, coeffs, piece);
         normal_f32_press(normal, piece);
     } else {
         look_series(normal, coeffs, duration, piece);
@@ -126,6 +137,7 @@ bool normal_f32_close_step(struct normal_f32 *normal, const struct normal_f32_co
 {
     if (coeffs->has_phase) {
         normal_f32_at(normal, normal->phase, &normal->y, &normal->w);
+        normal->y += normal->n;
     }
     if (normal->is_lifted && normal->y < -PLANT_GAP_MAX) {
         normal->y = -PLANT_GAP_MAX;

@@ -26,6 +26,7 @@ struct normal_f32_coeffs {
     bool has_phase; /* exact, undamped and never lifted: y from an integer phase index */
     uint8_t contact;
     struct normal_f32_map full, half; /* over h and h/2, in closed form */
+    float between;                    /* has_phase: 1/(2 cos(h/2)), the middle of a step from both its ends */
 };
 
 struct normal_f32 {
@@ -88,31 +89,51 @@ static inline float normal_f32_arc_y(const struct normal_f32_arc *arc, float t)
     return arc->y + t * (arc->slope + t * (arc->square + t * arc->cube));
 }
 
-/* A step begins: the phase goes on to its end. Each full quarter turns the amplitudes instead. Returns the phase. */
-BASE_INLINE uint32_t normal_f32_open_step(struct normal_f32 *normal, const struct normal_f32_coeffs *coeffs)
+/* A step begins: the phase goes on to its end. Each full quarter turns the amplitudes instead. */
+BASE_INLINE uint32_t normal_f32_turn(struct normal_f32 *normal, uint32_t phase)
 {
-    uint32_t phase = normal->phase + coeffs->phase_stride;
+    const float cosine = normal->cosine;
 
-    if (BASE_UNLIKELY(phase >= SINE_GRID / 4u)) {
-        const float cosine = normal->cosine;
-
-        phase -= SINE_GRID / 4u;
-        normal->cosine = normal->sine;
-        normal->sine = -cosine;
-    }
-    normal->phase = phase;
-    return phase;
+    normal->cosine = normal->sine;
+    normal->sine = -cosine;
+    return phase - SINE_GRID / 4u;
 }
 
-/* Displacement and velocity on the grid. */
-BASE_INLINE void normal_f32_at(const struct normal_f32 *normal, uint32_t phase, float *y, float *w)
+BASE_INLINE void normal_f32_open_step(struct normal_f32 *normal, const struct normal_f32_coeffs *coeffs)
+{
+    const uint32_t phase = normal->phase + coeffs->phase_stride;
+
+    normal->phase = phase >= SINE_GRID / 4u ? normal_f32_turn(normal, phase) : phase;
+}
+
+/* Displacement less n, and velocity, on the grid. */
+BASE_INLINE void normal_f32_at(const struct normal_f32 *normal, uint32_t phase, float *d, float *w)
 {
     const float sine = sine_quarter_f32[phase];
     const float cosine = sine_quarter_f32[SINE_GRID / 4u - phase];
 
-    *y = normal->n + (normal->cosine * cosine + normal->sine * sine);
+    *d = normal->cosine * cosine + normal->sine * sine;
     *w = normal->sine * cosine - normal->cosine * sine;
 }
+
+/* A whole step on the grid, up to phase: its end and the displacements of its stages, in the places of the forces. */
+BASE_INLINE void normal_f32_look_phase(const struct normal_f32 *normal, const struct normal_f32_coeffs *coeffs,
+                                       uint32_t phase, struct normal_f32_piece *piece)
+{
+    float d;
+
+    normal_f32_at(normal, phase, &d, &piece->w);
+    piece->y = normal->n + d;
+    piece->dy = piece->y - normal->y;
+    piece->dw = piece->w - normal->w;
+    piece->p1 = normal->y;
+    piece->p2 = normal->n + coeffs->between * ((normal->y - normal->n) + d);
+    piece->p3 = piece->p2;
+    piece->p4 = piece->y;
+}
+
+/* On the grid and pressed on the disc throughout, whatever the phase: 0 <= y <= 2 n, |w| <= n, to the last bit. */
+bool normal_f32_is_calm(const struct normal_f32 *normal);
 
 /* Closes a whole step: puts the undamped exact solution back on its grid, holds a gap at its limit. Returns true if the
  * gap was held. */
@@ -124,25 +145,17 @@ static inline float normal_f32_force(const struct normal_f32 *normal, float y)
     return y < normal->least_force ? normal->least_force : y;
 }
 
-/* The end of a whole step in contact, by the prepared map. */
-BASE_INLINE void normal_f32_look_end(const struct normal_f32 *normal, const struct normal_f32_map *full,
+/* A whole step in contact by the prepared maps: its end and the displacements of its stages, in the places of the
+ * forces. The middle two are one. */
+BASE_INLINE void normal_f32_look_map(const struct normal_f32 *normal, const struct normal_f32_coeffs *coeffs,
                                      struct normal_f32_piece *piece)
 {
     const float d = normal->y - normal->n;
 
-    piece->dy = full->yy * d + full->yw * normal->w;
-    piece->dw = full->wy * d + full->ww * normal->w;
+    piece->dy = coeffs->full.yy * d + coeffs->full.yw * normal->w;
+    piece->dw = coeffs->full.wy * d + coeffs->full.ww * normal->w;
     piece->y = normal->y + piece->dy;
     piece->w = normal->w + piece->dw;
-}
-
-/* The displacements of its stages, in the places of the forces: the middle two are one, and the last is that of the
- * end. */
-BASE_INLINE void normal_f32_look_middle(const struct normal_f32 *normal, const struct normal_f32_coeffs *coeffs,
-                                        struct normal_f32_piece *piece)
-{
-    const float d = normal->y - normal->n;
-
     piece->p1 = normal->y;
     piece->p2 = normal->y + (coeffs->half.yy * d + coeffs->half.yw * normal->w);
     piece->p3 = piece->p2;

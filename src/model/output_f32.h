@@ -7,6 +7,7 @@
 #include "model/step_f32.h"
 
 #define OUTPUT_MAX 15.9999990f /* the largest that Q4.27 holds */
+#define BITS_OF_2 0x40000000u  /* set in all floats from 2 on, and in none below */
 
 /* Q4.27, saturating; a NaN comes out as 0 and is flagged. */
 static inline int32_t to_q27(float value, bool *is_saturated)
@@ -48,6 +49,26 @@ BASE_INLINE void report_state(struct step_f32 *s, const struct step_f32_coeffs *
         output->noted.is_saturated = true;
         output->has_notes = true;
     }
+}
+
+static BASE_NOINLINE void report_wide(struct step_f32 *s, const struct step_f32_coeffs *c) { report_state(s, c); }
+
+/* Of a usual step with y and w known to be within range: mode and disc are as they were. A bit of the exponent tells
+ * that x and v are below 2. */
+BASE_INLINE void report_calm(struct step_f32 *s, const struct step_f32_coeffs *c)
+{
+    struct plant_output *output = &s->output;
+    const float x = s->x * c->output_length;
+
+    if (BASE_UNLIKELY(((fmath_bits(x) | fmath_bits(s->v)) & BITS_OF_2) != 0u)) {
+        report_wide(s, c);
+        return;
+    }
+    output->x = inside_q27(x);
+    output->v = inside_q27(s->v);
+    output->y = inside_q27(s->normal.y);
+    output->w = inside_q27(s->normal.w);
+    output->has_notes = false;
 }
 
 #endif
