@@ -51,24 +51,38 @@ BASE_INLINE void report_state(struct step_f32 *s, const struct step_f32_coeffs *
     }
 }
 
-static BASE_NOINLINE void report_wide(struct step_f32 *s, const struct step_f32_coeffs *c) { report_state(s, c); }
+static BASE_NOINLINE void report_wide(struct step_f32 *s, const struct step_f32_coeffs *c, bool has_notes)
+{
+    const struct plant_notes noted = s->output.noted;
 
-/* Of a usual step with y and w known to be within range: mode and disc are as they were. A bit of the exponent tells
- * that x and v are below 2. */
-BASE_INLINE void report_calm(struct step_f32 *s, const struct step_f32_coeffs *c)
+    report_state(s, c);
+    if (has_notes) {
+        const bool is_saturated = s->output.has_notes;
+
+        s->output.noted = noted;
+        s->output.noted.is_saturated = is_saturated;
+        s->output.has_notes = true;
+    }
+}
+
+/* Of a usual step with y and w known to be within range: mode and disc are as they were, and v too unless the pad
+ * moves on the disc. A bit of the exponent tells that x and v are below 2. */
+BASE_INLINE void report_calm(struct step_f32 *s, const struct step_f32_coeffs *c, bool has_moved, bool has_notes)
 {
     struct plant_output *output = &s->output;
     const float x = s->x * c->output_length;
 
-    if (BASE_UNLIKELY(((fmath_bits(x) | fmath_bits(s->v)) & BITS_OF_2) != 0u)) {
-        report_wide(s, c);
+    if (BASE_UNLIKELY(((fmath_bits(x) | (has_moved ? fmath_bits(s->v) : 0u)) & BITS_OF_2) != 0u)) {
+        report_wide(s, c, has_notes);
         return;
     }
     output->x = inside_q27(x);
-    output->v = inside_q27(s->v);
+    if (has_moved) {
+        output->v = inside_q27(s->v);
+    }
     output->y = inside_q27(s->normal.y);
     output->w = inside_q27(s->normal.w);
-    output->has_notes = false;
+    output->has_notes = has_notes;
 }
 
 #endif

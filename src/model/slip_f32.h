@@ -8,6 +8,7 @@
 
 #include "base/compiler.h"
 #include "base/fmath.h"
+#include "model/hermite_f32.h"
 #include "model/step_f32.h"
 
 /* End of one slip piece, and the half increment at its start. */
@@ -74,6 +75,17 @@ BASE_INLINE void slip_f32_go(const struct slip_f32_factors *f, float drive, int8
     end->v = v1 + (gain + (1.0f / 3.0f) * (inner + e4));
     end->first = e1;
     end->second = v2;
+}
+
+/* Change of x up to where the pad meets the disc, at a place of the piece. v is the cubic on which that place was found,
+ * that of vr as seen from side, so its mean up to there is the mean of its ends less a twelfth of what its slope changes
+ * by. */
+BASE_INLINE float slip_f32_dx_at_crossing(const struct slip_f32_factors *f, const struct hermite_f32 *vr, int8_t side,
+                                          float v, float disc, float place)
+{
+    const float bend = signed_by(side, (1.0f / 6.0f) * vr->square + 0.25f * (place * vr->cube));
+
+    return f->travel * place * (0.5f * (v + disc) + place * place * bend);
 }
 
 /* The factors of a part of the step, 0 to 1. */

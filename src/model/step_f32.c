@@ -7,6 +7,7 @@
 #include "model/naive_f32.h"
 #include "model/output_f32.h"
 #include "model/slip_f32.h"
+#include "model/switch_f32.h"
 
 static uint32_t to_share(float share)
 {
@@ -115,6 +116,28 @@ static BASE_NOINLINE void stick_event(struct step_f32 *s, const struct step_f32_
     advance_in_pieces(s, c, &attempt);
 }
 
+/* The same where y is calm. */
+static BASE_NOINLINE void slip_event_calm(struct step_f32 *s, const struct step_f32_coeffs *c, float y, float w,
+                                          float dx, float v, float first)
+{
+    const struct slip_f32_end end = {dx, v, first, 0.0f};
+
+    if (switch_to_stick(s, c, y, w, &end)) {
+        report_calm(s, c, true, true);
+    } else {
+        advance_in_pieces(s, c, NULL);
+    }
+}
+
+static BASE_NOINLINE void stick_event_calm(struct step_f32 *s, const struct step_f32_coeffs *c, float y, float w)
+{
+    if (switch_to_slip(s, c, y, w)) {
+        report_calm(s, c, true, true);
+    } else {
+        advance_in_pieces(s, c, NULL);
+    }
+}
+
 /* May the slip end inside the step? Asked of the signs alone: vr is beyond 0 at the end, or on the first tangent. What
  * is not excluded here is for event_f32.c to say. */
 BASE_INLINE bool may_cross(int8_t side, float disc, const struct slip_f32_end *end)
@@ -158,6 +181,10 @@ BASE_INLINE void slip_whole(struct step_f32 *s, const struct step_f32_coeffs *c,
 
     slip_f32_go(&c->whole, slip_f32_drive(&c->whole, s->disc, s->mode), s->mode, s->x, s->v, piece, &end, has_floor);
     if (BASE_UNLIKELY(may_cross(s->mode, s->disc, &end))) {
+        if (has_phase && s->calm_end != 0u) {
+            slip_event_calm(s, c, piece->y, piece->w, end.dx, end.v, end.first);
+            return;
+        }
         slip_event(s, c, piece->y, piece->w, piece->dy, piece->dw, end.dx, end.v, end.first);
         return;
     }
@@ -192,7 +219,9 @@ BASE_INLINE void advance_whole(struct step_f32 *s, const struct step_f32_coeffs 
         stick_whole(s, c, &piece, has_phase);
         return;
     }
-    normal_f32_press(&s->normal, &piece);
+    if (!has_phase || s->calm_end == 0u) {
+        normal_f32_press(&s->normal, &piece);
+    }
     slip_whole(s, c, &piece, has_phase, has_floor);
 }
 
@@ -242,16 +271,17 @@ BASE_INLINE void slip_calm(struct step_f32 *s, const struct step_f32_coeffs *c, 
     struct slip_f32_end end;
 
     normal_f32_look_phase(&s->normal, &c->normal, phase, &piece);
+    BASE_BARRIER(); /* what the slip needs is loaded after this, or there are too few registers */
     slip_f32_go(&c->whole, s->turning.drive, PLANT_SLIP_PLUS, s->x, s->v, &piece, &end, false);
     if (BASE_UNLIKELY(may_cross(PLANT_SLIP_PLUS, s->disc, &end))) {
-        slip_event(s, c, piece.y, piece.w, piece.dy, piece.dw, end.dx, end.v, end.first);
+        slip_event_calm(s, c, piece.y, piece.w, end.dx, end.v, end.first);
         return;
     }
     move_x(s, end.dx);
     s->v = end.v;
     s->normal.y = piece.y;
     s->normal.w = piece.w;
-    report_calm(s, c);
+    report_calm(s, c, true, false);
 }
 
 BASE_INLINE void stick_calm(struct step_f32 *s, const struct step_f32_coeffs *c, uint32_t phase)
@@ -260,13 +290,13 @@ BASE_INLINE void stick_calm(struct step_f32 *s, const struct step_f32_coeffs *c,
 
     normal_f32_look_phase(&s->normal, &c->normal, phase, &piece);
     if (BASE_UNLIKELY(!is_held(s, c, piece.y))) {
-        stick_event(s, c, piece.y, piece.w, piece.dy, piece.dw);
+        stick_event_calm(s, c, piece.y, piece.w);
         return;
     }
     move_x(s, s->turning.carry);
     s->normal.y = piece.y;
     s->normal.w = piece.w;
-    report_calm(s, c);
+    report_calm(s, c, false, false);
 }
 
 /* Nothing is kept across what is called here, so that no register needs to be saved before it is known what. */
@@ -316,6 +346,9 @@ void step_f32_set_input(struct step_f32 *state, const struct step_f32_coeffs *co
     if (input.speed != state->disc) {
         event_f32_set_speed(state, coeffs, input.speed);
         state->output.disc = inside_q27(input.speed);
+        if (state->mode == PLANT_STICK) {
+            state->output.v = state->output.disc;
+        }
         state->output.mode = state->mode;
         step_f32_adopt(state, coeffs);
     }
