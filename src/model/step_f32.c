@@ -122,7 +122,7 @@ static BASE_NOINLINE void slip_event_calm(struct step_f32 *s, const struct step_
 {
     const struct slip_f32_end end = {dx, v, first, 0.0f};
 
-    if (switch_to_stick(s, c, y, w, &end)) {
+    if (switch_from_slip(s, c, y, w, &end)) {
         report_calm(s, c, true, true);
     } else {
         advance_in_pieces(s, c, NULL);
@@ -131,7 +131,7 @@ static BASE_NOINLINE void slip_event_calm(struct step_f32 *s, const struct step_
 
 static BASE_NOINLINE void stick_event_calm(struct step_f32 *s, const struct step_f32_coeffs *c, float y, float w)
 {
-    if (switch_to_slip(s, c, y, w)) {
+    if (switch_from_stick(s, c, y, w)) {
         report_calm(s, c, true, true);
     } else {
         advance_in_pieces(s, c, NULL);
