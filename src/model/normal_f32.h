@@ -19,8 +19,8 @@ struct normal_f32_map {
 };
 
 struct normal_f32_coeffs {
-    float damping; /* Cn */
-    float step;    /* h */
+    float damping;         /* Cn */
+    float step, half_step; /* h, h/2 */
     uint32_t phase_stride;
     bool is_exact;
     bool has_phase; /* exact, undamped and never lifted: y from an integer phase index */
@@ -162,27 +162,28 @@ BASE_INLINE void normal_f32_look_map(const struct normal_f32 *normal, const stru
     piece->p4 = piece->y;
 }
 
-/* The same by RK4; spring is 0 for a pad that is lifted, else 1. */
+/* The same by RK4 over twice the time half; spring is 0 for a pad that is lifted, else 1. b is half w'. */
 BASE_INLINE void normal_f32_look_rk4(const struct normal_f32 *normal, const struct normal_f32_coeffs *coeffs,
-                                     float duration, float spring, struct normal_f32_piece *piece)
+                                     float half, float spring, struct normal_f32_piece *piece)
 {
-    const float half = 0.5f * duration;
-    const float sixth = duration * (1.0f / 6.0f);
+    const float drag = half * coeffs->damping;
     const float y1 = normal->y;
     const float w1 = normal->w;
-    const float a1 = normal->n - coeffs->damping * w1 - spring * y1;
+    const float b1 = half * (normal->n - spring * y1) - drag * w1;
     const float y2 = y1 + half * w1;
-    const float w2 = w1 + half * a1;
-    const float a2 = normal->n - coeffs->damping * w2 - spring * y2;
+    const float w2 = w1 + b1;
+    const float b2 = half * (normal->n - spring * y2) - drag * w2;
     const float y3 = y1 + half * w2;
-    const float w3 = w1 + half * a2;
-    const float a3 = normal->n - coeffs->damping * w3 - spring * y3;
-    const float y4 = y1 + duration * w3;
-    const float w4 = w1 + duration * a3;
-    const float a4 = normal->n - coeffs->damping * w4 - spring * y4;
+    const float w3 = w1 + b2;
+    const float b3 = half * (normal->n - spring * y3) - drag * w3;
+    const float y4 = y1 + half * (w3 + w3);
+    const float w4 = w1 + (b3 + b3);
+    const float b4 = half * (normal->n - spring * y4) - drag * w4;
+    const float inner = b2 + b3;
+    const float gain = (1.0f / 3.0f) * (b1 + inner);
 
-    piece->dy = sixth * (w1 + 2.0f * (w2 + w3) + w4);
-    piece->dw = sixth * (a1 + 2.0f * (a2 + a3) + a4);
+    piece->dy = half * (2.0f * (w1 + gain));
+    piece->dw = gain + (1.0f / 3.0f) * (inner + b4);
     piece->y = y1 + piece->dy;
     piece->w = w1 + piece->dw;
     piece->p1 = y1;
@@ -191,15 +192,18 @@ BASE_INLINE void normal_f32_look_rk4(const struct normal_f32 *normal, const stru
     piece->p4 = y4;
 }
 
-/* From them to the forces; they differ where y < 0 alone. */
-BASE_INLINE void normal_f32_press(const struct normal_f32 *normal, struct normal_f32_piece *piece)
+/* Is the pad pressed on the disc, at all stages and at the end? Asked of the signs. */
+BASE_INLINE bool normal_f32_is_pressed(const struct normal_f32_piece *piece)
 {
-    const uint32_t signs =
-        fmath_bits(piece->p1) | fmath_bits(piece->p2) | fmath_bits(piece->p3) | fmath_bits(piece->p4);
+    const uint32_t signs = fmath_bits(piece->p1) | fmath_bits(piece->p2) | fmath_bits(piece->p3) |
+                           fmath_bits(piece->p4) | fmath_bits(piece->y);
 
-    if (BASE_LIKELY((int32_t)signs >= 0)) {
-        return;
-    }
+    return (int32_t)signs >= 0;
+}
+
+/* From displacements to forces; they differ where y < 0 alone. */
+static inline void normal_f32_press(const struct normal_f32 *normal, struct normal_f32_piece *piece)
+{
     piece->p1 = normal_f32_force(normal, piece->p1);
     piece->p2 = normal_f32_force(normal, piece->p2);
     piece->p3 = normal_f32_force(normal, piece->p3);

@@ -14,6 +14,20 @@ static uint32_t to_share(float share)
     return share >= 1.0f ? PLANT_SHARE_ONE : share > 0.0f ? (uint32_t)(share * (float)PLANT_SHARE_ONE) : 0u;
 }
 
+static enum step_f32_path find_path(const struct step_f32_coeffs *coeffs, const struct params *params)
+{
+    if (coeffs->is_naive || (int)params->contact == CONTACT_LIFT) {
+        return STEP_F32_PIECES;
+    }
+    if (coeffs->normal.has_phase) {
+        return coeffs->has_floor ? STEP_F32_PHASE_FLOOR : STEP_F32_PHASE;
+    }
+    if (coeffs->has_floor) {
+        return STEP_F32_MAP_FLOOR;
+    }
+    return coeffs->normal.is_exact ? STEP_F32_MAP : STEP_F32_RK4;
+}
+
 void step_f32_configure(struct step_f32_coeffs *coeffs, const struct params *params, const struct scale *scale)
 {
     const float half = 0.5f * scale->step;
@@ -27,8 +41,7 @@ void step_f32_configure(struct step_f32_coeffs *coeffs, const struct params *par
     coeffs->is_naive = (int)params->tangential_method == METHOD_NAIVE;
     coeffs->output_length = 1.0f / (float)(1u << scale->length_shift);
     normal_f32_configure(&coeffs->normal, params, scale);
-    coeffs->may_be_whole = !coeffs->is_naive && (int)params->contact != CONTACT_LIFT;
-    coeffs->is_plain = coeffs->may_be_whole && coeffs->normal.has_phase && !scale->has_floor;
+    coeffs->path = (uint8_t)find_path(coeffs, params);
     coeffs->whole = (struct slip_f32_factors){
         .travel = scale->step,
         .spring = half * scale->stiffness,
@@ -97,8 +110,19 @@ static BASE_NOINLINE void advance_in_pieces(struct step_f32 *s, const struct ste
 
 /* --- The whole step: tried first wherever it may be without an event ---------------------------------------------- */
 
+/* To the end of the step, which holds no event that another arithmetic need look for. */
+BASE_INLINE void move_normal(struct step_f32 *s, const struct normal_f32_piece *piece, bool has_phase)
+{
+    if (has_phase) {
+        s->normal.y = piece->y;
+        s->normal.w = piece->w;
+    } else {
+        normal_f32_move(&s->normal, piece);
+    }
+}
+
 /* The step was tried as a whole, up to y and w, and may hold an event: of a slip that was to come to dx and v, and began
- * with the half increment first, or of a stick. */
+ * with the half increment first, or of a stick. As numbers, a shape would have to be put together for every step. */
 static BASE_NOINLINE void slip_event(struct step_f32 *s, const struct step_f32_coeffs *c, float y, float w, float dy,
                                      float dw, float dx, float v, float first)
 {
@@ -116,26 +140,32 @@ static BASE_NOINLINE void stick_event(struct step_f32 *s, const struct step_f32_
     advance_in_pieces(s, c, &attempt);
 }
 
-/* The same where y is calm. */
-static BASE_NOINLINE void slip_event_calm(struct step_f32 *s, const struct step_f32_coeffs *c, float y, float w,
-                                          float dx, float v, float first)
+/* The same of a pad that is pressed on the disc, without a floor of friction. */
+static BASE_NOINLINE void slip_event_pressed(struct step_f32 *s, const struct step_f32_coeffs *c, float y, float w,
+                                             float dy, float dw, float dx, float v, float first)
 {
+    const struct normal_f32_piece piece = {.y = y, .w = w, .dy = dy, .dw = dw};
     const struct slip_f32_end end = {dx, v, first, 0.0f};
 
-    if (switch_from_slip(s, c, y, w, &end)) {
-        report_calm(s, c, true, true);
-    } else {
+    if (!switch_from_slip(s, c, &piece, &end)) {
         advance_in_pieces(s, c, NULL);
+        return;
     }
+    move_normal(s, &piece, c->normal.has_phase);
+    report_pressed(s, c, true, false, true);
 }
 
-static BASE_NOINLINE void stick_event_calm(struct step_f32 *s, const struct step_f32_coeffs *c, float y, float w)
+static BASE_NOINLINE void stick_event_pressed(struct step_f32 *s, const struct step_f32_coeffs *c, float y, float w,
+                                              float dy, float dw)
 {
-    if (switch_from_stick(s, c, y, w)) {
-        report_calm(s, c, true, true);
-    } else {
+    const struct normal_f32_piece piece = {.y = y, .w = w, .dy = dy, .dw = dw};
+
+    if (!switch_from_stick(s, c, &piece)) {
         advance_in_pieces(s, c, NULL);
+        return;
     }
+    move_normal(s, &piece, c->normal.has_phase);
+    report_pressed(s, c, true, false, true);
 }
 
 /* May the slip end inside the step? Asked of the signs alone: vr is beyond 0 at the end, or on the first tangent. What
@@ -156,110 +186,125 @@ BASE_INLINE bool is_held(const struct step_f32 *s, const struct step_f32_coeffs 
     return fmath_abs(need) <= c->whole.friction * p;
 }
 
-/* Moves on to the end of the step and reports it. */
-BASE_INLINE void finish(struct step_f32 *s, const struct step_f32_coeffs *c, const struct normal_f32_piece *piece,
-                        bool has_phase)
+/* Reports a step without an event. */
+BASE_INLINE void finish(struct step_f32 *s, const struct step_f32_coeffs *c, bool has_moved, bool is_pressed)
 {
-    if (has_phase) {
-        s->normal.y = piece->y;
-        s->normal.w = piece->w;
+    if (BASE_LIKELY(is_pressed)) {
+        report_pressed(s, c, has_moved, false, false);
     } else {
-        normal_f32_move(&s->normal, piece);
-    }
-    report_state(s, c);
-    if (BASE_UNLIKELY(s->normal.y < 0.0f)) {
-        s->output.noted = plant_notes(&s->output);
-        s->output.noted.is_lifted = true;
-        s->output.has_notes = true;
+        report_unpressed(s, c);
     }
 }
 
 BASE_INLINE void slip_whole(struct step_f32 *s, const struct step_f32_coeffs *c, const struct normal_f32_piece *piece,
-                            bool has_phase, bool has_floor)
+                            bool has_phase, bool has_floor, bool is_pressed)
 {
     struct slip_f32_end end;
 
     slip_f32_go(&c->whole, slip_f32_drive(&c->whole, s->disc, s->mode), s->mode, s->x, s->v, piece, &end, has_floor);
     if (BASE_UNLIKELY(may_cross(s->mode, s->disc, &end))) {
-        if (has_phase && s->calm_end != 0u) {
-            slip_event_calm(s, c, piece->y, piece->w, end.dx, end.v, end.first);
-            return;
+        if (is_pressed && !has_floor) {
+            slip_event_pressed(s, c, piece->y, piece->w, piece->dy, piece->dw, end.dx, end.v, end.first);
+        } else {
+            slip_event(s, c, piece->y, piece->w, piece->dy, piece->dw, end.dx, end.v, end.first);
         }
-        slip_event(s, c, piece->y, piece->w, piece->dy, piece->dw, end.dx, end.v, end.first);
         return;
     }
     move_x(s, end.dx);
     s->v = end.v;
-    finish(s, c, piece, has_phase);
+    move_normal(s, piece, has_phase);
+    finish(s, c, true, is_pressed);
 }
 
 BASE_INLINE void stick_whole(struct step_f32 *s, const struct step_f32_coeffs *c, const struct normal_f32_piece *piece,
-                             bool has_phase)
+                             bool has_phase, bool has_floor, bool is_pressed)
 {
-    if (BASE_UNLIKELY(!is_held(s, c, normal_f32_force(&s->normal, piece->y)))) {
-        stick_event(s, c, piece->y, piece->w, piece->dy, piece->dw);
+    if (BASE_UNLIKELY(!is_held(s, c, is_pressed ? piece->y : normal_f32_force(&s->normal, piece->y)))) {
+        if (is_pressed && !has_floor) {
+            stick_event_pressed(s, c, piece->y, piece->w, piece->dy, piece->dw);
+        } else {
+            stick_event(s, c, piece->y, piece->w, piece->dy, piece->dw);
+        }
         return;
     }
     move_x(s, s->turning.carry);
-    finish(s, c, piece, has_phase);
+    move_normal(s, piece, has_phase);
+    finish(s, c, false, is_pressed);
 }
 
-BASE_INLINE void advance_whole(struct step_f32 *s, const struct step_f32_coeffs *c, bool has_phase, bool has_floor)
+BASE_INLINE void advance_whole(struct step_f32 *s, const struct step_f32_coeffs *c, bool has_phase, bool is_exact,
+                               bool has_floor)
 {
     struct normal_f32_piece piece;
+    bool is_pressed;
 
     if (has_phase) {
         normal_f32_look_phase(&s->normal, &c->normal, s->normal.phase, &piece);
-    } else if (c->normal.is_exact) {
+    } else if (is_exact) {
         normal_f32_look_map(&s->normal, &c->normal, &piece);
     } else {
-        normal_f32_look_rk4(&s->normal, &c->normal, c->normal.step, 1.0f, &piece);
+        normal_f32_look_rk4(&s->normal, &c->normal, c->normal.half_step, 1.0f, &piece);
     }
+    is_pressed = (has_phase && s->calm_end != 0u) || normal_f32_is_pressed(&piece);
     if (s->mode == PLANT_STICK) {
-        stick_whole(s, c, &piece, has_phase);
+        stick_whole(s, c, &piece, has_phase, has_floor, is_pressed);
         return;
     }
-    if (!has_phase || s->calm_end == 0u) {
+    if (BASE_UNLIKELY(!is_pressed)) {
         normal_f32_press(&s->normal, &piece);
     }
-    slip_whole(s, c, &piece, has_phase, has_floor);
+    slip_whole(s, c, &piece, has_phase, has_floor, is_pressed);
 }
 
 static BASE_NOINLINE void advance_phase(struct step_f32 *s, const struct step_f32_coeffs *c)
 {
-    advance_whole(s, c, true, false);
+    normal_f32_open_step(&s->normal, &c->normal);
+    advance_whole(s, c, true, true, false);
 }
 
 static BASE_NOINLINE void advance_phase_floor(struct step_f32 *s, const struct step_f32_coeffs *c)
 {
-    advance_whole(s, c, true, true);
+    normal_f32_open_step(&s->normal, &c->normal);
+    advance_whole(s, c, true, true, true);
 }
 
-static BASE_NOINLINE void advance_map(struct step_f32 *s, const struct step_f32_coeffs *c)
+static BASE_NOINLINE void advance_rk4(struct step_f32 *s, const struct step_f32_coeffs *c)
 {
-    advance_whole(s, c, false, false);
+    advance_whole(s, c, false, false, false);
 }
 
 static BASE_NOINLINE void advance_map_floor(struct step_f32 *s, const struct step_f32_coeffs *c)
 {
-    advance_whole(s, c, false, true);
+    advance_whole(s, c, false, c->normal.is_exact, true);
 }
 
+static BASE_NOINLINE void advance_map(struct step_f32 *s, const struct step_f32_coeffs *c)
+{
+    advance_whole(s, c, false, true, false);
+}
+
+/* Without an index of phase, or not calm, or in slip backward. */
 static BASE_NOINLINE void advance_other(struct step_f32 *s, const struct step_f32_coeffs *c)
 {
-    normal_f32_open_step(&s->normal, &c->normal);
-    if (!c->may_be_whole) {
-        advance_in_pieces(s, c, NULL);
-    } else if (!c->normal.has_phase) {
-        if (c->has_floor) {
-            advance_map_floor(s, c);
-        } else {
-            advance_map(s, c);
-        }
-    } else if (c->has_floor) {
-        advance_phase_floor(s, c);
-    } else {
+    switch (c->path) {
+    case STEP_F32_RK4:
+        advance_rk4(s, c);
+        return;
+    case STEP_F32_PHASE:
         advance_phase(s, c);
+        return;
+    case STEP_F32_PHASE_FLOOR:
+        advance_phase_floor(s, c);
+        return;
+    case STEP_F32_MAP:
+        advance_map(s, c);
+        return;
+    case STEP_F32_MAP_FLOOR:
+        advance_map_floor(s, c);
+        return;
+    default:
+        normal_f32_open_step(&s->normal, &c->normal);
+        advance_in_pieces(s, c, NULL);
     }
 }
 
@@ -274,14 +319,15 @@ BASE_INLINE void slip_calm(struct step_f32 *s, const struct step_f32_coeffs *c, 
     BASE_BARRIER(); /* what the slip needs is loaded after this, or there are too few registers */
     slip_f32_go(&c->whole, s->turning.drive, PLANT_SLIP_PLUS, s->x, s->v, &piece, &end, false);
     if (BASE_UNLIKELY(may_cross(PLANT_SLIP_PLUS, s->disc, &end))) {
-        slip_event_calm(s, c, piece.y, piece.w, end.dx, end.v, end.first);
+        slip_event_pressed(s, c, piece.y, piece.w, piece.y - s->normal.y, piece.w - s->normal.w, end.dx, end.v,
+                           end.first);
         return;
     }
     move_x(s, end.dx);
     s->v = end.v;
     s->normal.y = piece.y;
     s->normal.w = piece.w;
-    report_calm(s, c, true, false);
+    report_pressed(s, c, true, true, false);
 }
 
 BASE_INLINE void stick_calm(struct step_f32 *s, const struct step_f32_coeffs *c, uint32_t phase)
@@ -290,13 +336,13 @@ BASE_INLINE void stick_calm(struct step_f32 *s, const struct step_f32_coeffs *c,
 
     normal_f32_look_phase(&s->normal, &c->normal, phase, &piece);
     if (BASE_UNLIKELY(!is_held(s, c, piece.y))) {
-        stick_event_calm(s, c, piece.y, piece.w);
+        stick_event_pressed(s, c, piece.y, piece.w, piece.y - s->normal.y, piece.w - s->normal.w);
         return;
     }
     move_x(s, s->turning.carry);
     s->normal.y = piece.y;
     s->normal.w = piece.w;
-    report_calm(s, c, false, false);
+    report_pressed(s, c, false, true, false);
 }
 
 /* Nothing is kept across what is called here, so that no register needs to be saved before it is known what. */
@@ -323,7 +369,7 @@ void step_f32_advance(struct step_f32 *state, const struct step_f32_coeffs *coef
 
 static void find_calm(struct step_f32 *s, const struct step_f32_coeffs *c)
 {
-    s->calm_end = c->is_plain && normal_f32_is_calm(&s->normal) ? SINE_GRID / 4u : 0u;
+    s->calm_end = c->path == STEP_F32_PHASE && normal_f32_is_calm(&s->normal) ? SINE_GRID / 4u : 0u;
 }
 
 void step_f32_adopt(struct step_f32 *state, const struct step_f32_coeffs *coeffs)

@@ -19,13 +19,23 @@ struct slip_f32_factors {
     float floor;                /* h/2 times the floor of mu */
 };
 
+/* How a step goes that is tried as a whole, and may turn out to have an event: by the way in which y comes, and whether
+ * there is a floor of friction. PIECES: it cannot be tried, for a naive method or a pad that lifts. */
+enum step_f32_path {
+    STEP_F32_PIECES,
+    STEP_F32_PHASE, /* the paper's set */
+    STEP_F32_PHASE_FLOOR,
+    STEP_F32_RK4, /* the paper's set with normal rk4 */
+    STEP_F32_MAP,
+    STEP_F32_MAP_FLOOR
+};
+
 struct step_f32_coeffs {
     struct slip_f32_factors whole;
     float output_length; /* 1/2^length_shift */
     bool has_floor;
-    bool is_naive;     /* RK4 on the raw sign, no stick: for comparison only */
-    bool may_be_whole; /* neither naive nor a pad that lifts: most steps have nothing to locate */
-    bool is_plain;     /* of these, undamped closed form of y and no floor, the paper's set */
+    bool is_naive;                                    /* RK4 on the raw sign, no stick: for comparison only */
+    uint8_t path;                                     /* enum step_f32_path */
     float damping, stiffness, friction, slope, floor; /* C, Z2, mu, eps, floor of mu, for reports */
     struct normal_f32_coeffs normal;
 };
@@ -44,11 +54,12 @@ struct step_f32_turning {
 };
 
 struct step_f32 {
-    float x, v;        /* displacement and velocity of the pad along the disc */
-    float x_rest;      /* what rounding took from x so far: without it an equilibrium rustles at 1e-5 of x */
-    float disc;        /* disc speed held over the present step */
-    int8_t mode;       /* enum plant_mode */
-    uint32_t calm_end; /* of phase: the fast path serves below it. A quarter turn for a plain set while y is calm, else
+    float x, v;   /* displacement and velocity of the pad along the disc */
+    float x_rest; /* what rounding took from x so far: without it an equilibrium rustles at 1e-5 of x */
+    float disc;   /* disc speed held over the present step */
+    int8_t mode;  /* enum plant_mode */
+    uint32_t
+        calm_end; /* of phase: the fast path serves below it. A quarter turn on STEP_F32_PHASE while y is calm, else
                         * 0 */
     struct step_f32_turning turning;
     struct normal_f32 normal;
