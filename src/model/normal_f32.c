@@ -46,7 +46,7 @@ void normal_f32_configure(struct normal_f32_coeffs *coeffs, const struct params 
 {
     coeffs->damping = scale->normal_damping;
     coeffs->step = scale->step;
-    coeffs->half_step = 0.5f * scale->step;
+    coeffs->half_step = NORMAL_F32_HALF * scale->step;
     coeffs->phase_stride = SINE_GRID / scale->steps_per_period;
     coeffs->contact = (uint8_t)params->contact;
     coeffs->is_exact = (int)params->normal_method == NORMAL_EXACT;
@@ -124,7 +124,8 @@ void normal_f32_look(const struct normal_f32 *normal, const struct normal_f32_co
                      bool is_whole, struct normal_f32_piece *piece)
 {
     if (!coeffs->is_exact) {
-        normal_f32_look_rk4(normal, coeffs, 0.5f * duration, normal->is_lifted ? 0.0f : 1.0f, piece);
+        normal_f32_look_rk4(normal, coeffs, duration, NORMAL_F32_HALF * duration, normal->is_lifted ? 0.0f : 1.0f,
+                            piece);
         normal_f32_press(normal, piece);
     } else if (is_whole && !normal->is_lifted) {
         normal_f32_look_map(normal, coeffs, piece);

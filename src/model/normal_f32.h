@@ -14,13 +14,17 @@
 #include "model/scale.h"
 #include "model/sine.h"
 
+/* Half a step is that of a velocity's half increments, whose sum is multiplied by 1/3: as numbers both h and 1/3 are
+ * 3e-8 too large, and this undoes it, or every frequency is off by as much. */
+#define NORMAL_F32_HALF 0.49999997f
+
 struct normal_f32_map {
     float yy, yw, wy, ww; /* (y - n, w) changes by this matrix times (y - n, w) */
 };
 
 struct normal_f32_coeffs {
     float damping;         /* Cn */
-    float step, half_step; /* h, h/2 */
+    float step, half_step; /* h, and h/2 for what acts on a velocity */
     uint32_t phase_stride;
     bool is_exact;
     bool has_phase; /* exact, undamped and never lifted: y from an integer phase index */
@@ -162,9 +166,9 @@ BASE_INLINE void normal_f32_look_map(const struct normal_f32 *normal, const stru
     piece->p4 = piece->y;
 }
 
-/* The same by RK4 over twice the time half; spring is 0 for a pad that is lifted, else 1. b is half w'. */
+/* The same by RK4 over a duration and its half; spring is 0 for a pad that is lifted, else 1. b is half w'. */
 BASE_INLINE void normal_f32_look_rk4(const struct normal_f32 *normal, const struct normal_f32_coeffs *coeffs,
-                                     float half, float spring, struct normal_f32_piece *piece)
+                                     float duration, float half, float spring, struct normal_f32_piece *piece)
 {
     const float drag = half * coeffs->damping;
     const float y1 = normal->y;
@@ -182,7 +186,7 @@ BASE_INLINE void normal_f32_look_rk4(const struct normal_f32 *normal, const stru
     const float inner = b2 + b3;
     const float gain = (1.0f / 3.0f) * (b1 + inner);
 
-    piece->dy = half * (2.0f * (w1 + gain));
+    piece->dy = duration * (w1 + gain);
     piece->dw = gain + (1.0f / 3.0f) * (inner + b4);
     piece->y = y1 + piece->dy;
     piece->w = w1 + piece->dw;

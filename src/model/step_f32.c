@@ -30,7 +30,7 @@ static enum step_f32_path find_path(const struct step_f32_coeffs *coeffs, const 
 
 void step_f32_configure(struct step_f32_coeffs *coeffs, const struct params *params, const struct scale *scale)
 {
-    const float half = 0.5f * scale->step;
+    const float half = NORMAL_F32_HALF * scale->step;
 
     coeffs->damping = scale->damping;
     coeffs->stiffness = scale->stiffness;
@@ -243,7 +243,7 @@ BASE_INLINE void advance_whole(struct step_f32 *s, const struct step_f32_coeffs 
     } else if (is_exact) {
         normal_f32_look_map(&s->normal, &c->normal, &piece);
     } else {
-        normal_f32_look_rk4(&s->normal, &c->normal, c->normal.half_step, 1.0f, &piece);
+        normal_f32_look_rk4(&s->normal, &c->normal, c->normal.step, c->normal.half_step, 1.0f, &piece);
     }
     is_pressed = (has_phase && s->calm_end != 0u) || normal_f32_is_pressed(&piece);
     if (s->mode == PLANT_STICK) {
