@@ -63,6 +63,17 @@ static float least_force(const struct normal_f32 *normal, const struct normal_f3
     return coeffs->contact == CONTACT_BILATERAL && !normal->is_steady_from_rest ? -1e30f : 0.0f;
 }
 
+/* The sum is the amplitude where the motion comes from rest, and then y touches 0. Otherwise the root of squares leaves
+ * room for rounding. */
+void normal_f32_find_calm(struct normal_f32 *normal)
+{
+    const float n = normal->n;
+    const float cosine = fmath_abs(normal->cosine);
+    const float sine = fmath_abs(normal->sine);
+
+    normal->is_calm = cosine + sine <= n || (n >= 0.0f && cosine * cosine + sine * sine < 0.999f * n * n);
+}
+
 void normal_f32_reset(struct normal_f32 *normal, const struct normal_f32_coeffs *coeffs, float y, float w, float n)
 {
     normal->y = y;
@@ -88,18 +99,8 @@ void normal_f32_set_load(struct normal_f32 *normal, const struct normal_f32_coef
     if (coeffs->has_phase) {
         normal->cosine -= change * sine_quarter_f32[SINE_GRID / 4u - normal->phase];
         normal->sine -= change * sine_quarter_f32[normal->phase];
+        normal_f32_find_calm(normal);
     }
-}
-
-bool normal_f32_is_calm(const struct normal_f32 *normal)
-{
-    const float cosine = fmath_abs(normal->cosine);
-    const float sine = fmath_abs(normal->sine);
-
-    /* The sum is the amplitude where it starts from rest, and then y touches 0; otherwise the root of squares leaves room
-     * for rounding. */
-    return cosine + sine <= normal->n ||
-           (normal->n >= 0.0f && cosine * cosine + sine * sine < 0.999f * normal->n * normal->n);
 }
 
 /* Part of a step, or one without the spring, in closed form. */

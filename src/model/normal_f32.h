@@ -40,7 +40,9 @@ struct normal_f32 {
     float cosine, sine;   /* y = n + cosine cos(phase) + sine sin(phase), where has_phase */
     uint32_t phase;       /* within a quarter turn; each full quarter turns the amplitudes instead */
     float least_force; /* the contact force is y, but never less than this: 0, or far below all y where it may pull */
-    bool is_lifted;    /* spring off: contact lift and y < 0 */
+    bool
+        is_calm; /* on the grid and pressed on the disc, whatever the phase: 0 <= y <= 2 n, |w| <= n, to the last bit */
+    bool is_lifted;           /* spring off: contact lift and y < 0 */
     bool is_steady_from_rest; /* from rest under a force that never changed: y >= 0 but for rounding */
 };
 
@@ -55,6 +57,9 @@ void normal_f32_configure(struct normal_f32_coeffs *coeffs, const struct params 
 
 /* Starts at y, w under the force n. */
 void normal_f32_reset(struct normal_f32 *normal, const struct normal_f32_coeffs *coeffs, float y, float w, float n);
+
+/* Is the motion calm? Asked when it changes, and where a state has been put back. */
+void normal_f32_find_calm(struct normal_f32 *normal);
 
 /* A new brake force takes hold from here on. */
 void normal_f32_set_load(struct normal_f32 *normal, const struct normal_f32_coeffs *coeffs, float n);
@@ -93,21 +98,20 @@ static inline float normal_f32_arc_y(const struct normal_f32_arc *arc, float t)
     return arc->y + t * (arc->slope + t * (arc->square + t * arc->cube));
 }
 
-/* A step begins: the phase goes on to its end. Each full quarter turns the amplitudes instead. */
-BASE_INLINE uint32_t normal_f32_turn(struct normal_f32 *normal, uint32_t phase)
+/* A step begins: the phase goes on to its end. Each full quarter turns the amplitudes instead. Returns the phase. */
+BASE_INLINE uint32_t normal_f32_open_step(struct normal_f32 *normal, const struct normal_f32_coeffs *coeffs)
 {
-    const float cosine = normal->cosine;
+    uint32_t phase = normal->phase + coeffs->phase_stride;
 
-    normal->cosine = normal->sine;
-    normal->sine = -cosine;
-    return phase - SINE_GRID / 4u;
-}
+    if (BASE_UNLIKELY(phase >= SINE_GRID / 4u)) {
+        const float cosine = normal->cosine;
 
-BASE_INLINE void normal_f32_open_step(struct normal_f32 *normal, const struct normal_f32_coeffs *coeffs)
-{
-    const uint32_t phase = normal->phase + coeffs->phase_stride;
-
-    normal->phase = phase >= SINE_GRID / 4u ? normal_f32_turn(normal, phase) : phase;
+        phase -= SINE_GRID / 4u;
+        normal->cosine = normal->sine;
+        normal->sine = -cosine;
+    }
+    normal->phase = phase;
+    return phase;
 }
 
 /* Displacement less n, and velocity, on the grid. */
@@ -135,9 +139,6 @@ BASE_INLINE void normal_f32_look_phase(const struct normal_f32 *normal, const st
     piece->p3 = piece->p2;
     piece->p4 = piece->y;
 }
-
-/* On the grid and pressed on the disc throughout, whatever the phase: 0 <= y <= 2 n, |w| <= n, to the last bit. */
-bool normal_f32_is_calm(const struct normal_f32 *normal);
 
 /* Closes a whole step: puts the undamped exact solution back on its grid, holds a gap at its limit. Returns true if the
  * gap was held. */

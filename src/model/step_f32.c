@@ -14,18 +14,32 @@ static uint32_t to_share(float share)
     return share >= 1.0f ? PLANT_SHARE_ONE : share > 0.0f ? (uint32_t)(share * (float)PLANT_SHARE_ONE) : 0u;
 }
 
-static enum step_f32_path find_path(const struct step_f32_coeffs *coeffs, const struct params *params)
+/* How a step goes. All but PIECES try it as a whole, and may find that it holds an event: they differ by the way in
+ * which y comes, and by whether friction has a floor. A naive method, or a pad that lifts, cannot be tried. The calm ones
+ * are for the set of PHASE, the paper's, while the pad is pressed on the disc whatever the phase, and sticks or slips
+ * forward. */
+enum way { WAY_PIECES, WAY_SLIP_CALM, WAY_STICK_CALM, WAY_PHASE, WAY_RK4, WAY_MAP, WAY_PHASE_FLOOR, WAY_MAP_FLOOR };
+
+static uint8_t find_path(const struct step_f32_coeffs *coeffs, const struct params *params)
 {
     if (coeffs->is_naive || (int)params->contact == CONTACT_LIFT) {
-        return STEP_F32_PIECES;
+        return WAY_PIECES;
     }
     if (coeffs->normal.has_phase) {
-        return coeffs->has_floor ? STEP_F32_PHASE_FLOOR : STEP_F32_PHASE;
+        return coeffs->has_floor ? WAY_PHASE_FLOOR : WAY_PHASE;
     }
     if (coeffs->has_floor) {
-        return STEP_F32_MAP_FLOOR;
+        return WAY_MAP_FLOOR;
     }
-    return coeffs->normal.is_exact ? STEP_F32_MAP : STEP_F32_RK4;
+    return coeffs->normal.is_exact ? WAY_MAP : WAY_RK4;
+}
+
+static uint8_t find_way(const struct step_f32 *s, const struct step_f32_coeffs *c)
+{
+    if (c->path != WAY_PHASE || !s->normal.is_calm || s->mode == PLANT_SLIP_MINUS) {
+        return c->path;
+    }
+    return s->mode == PLANT_STICK ? WAY_STICK_CALM : WAY_SLIP_CALM;
 }
 
 void step_f32_configure(struct step_f32_coeffs *coeffs, const struct params *params, const struct scale *scale)
@@ -41,7 +55,7 @@ void step_f32_configure(struct step_f32_coeffs *coeffs, const struct params *par
     coeffs->is_naive = (int)params->tangential_method == METHOD_NAIVE;
     coeffs->output_length = 1.0f / (float)(1u << scale->length_shift);
     normal_f32_configure(&coeffs->normal, params, scale);
-    coeffs->path = (uint8_t)find_path(coeffs, params);
+    coeffs->path = find_path(coeffs, params);
     coeffs->whole = (struct slip_f32_factors){
         .travel = scale->step,
         .spring = half * scale->stiffness,
@@ -63,6 +77,7 @@ static void report(struct step_f32 *s, const struct step_f32_coeffs *c, const st
     s->output.has_notes = true;
     s->output.noted = *notes;
     s->output.noted.is_saturated = is_saturated;
+    s->way = find_way(s, c);
 }
 
 void step_f32_reset(struct step_f32 *state, const struct step_f32_coeffs *coeffs, const struct params *params,
@@ -152,6 +167,7 @@ static BASE_NOINLINE void slip_event_pressed(struct step_f32 *s, const struct st
         return;
     }
     move_normal(s, &piece, c->normal.has_phase);
+    s->way = find_way(s, c);
     report_pressed(s, c, true, false, true);
 }
 
@@ -165,6 +181,7 @@ static BASE_NOINLINE void stick_event_pressed(struct step_f32 *s, const struct s
         return;
     }
     move_normal(s, &piece, c->normal.has_phase);
+    s->way = find_way(s, c);
     report_pressed(s, c, true, false, true);
 }
 
@@ -245,7 +262,7 @@ BASE_INLINE void advance_whole(struct step_f32 *s, const struct step_f32_coeffs 
     } else {
         normal_f32_look_rk4(&s->normal, &c->normal, c->normal.step, c->normal.half_step, 1.0f, &piece);
     }
-    is_pressed = (has_phase && s->calm_end != 0u) || normal_f32_is_pressed(&piece);
+    is_pressed = (has_phase && s->normal.is_calm) || normal_f32_is_pressed(&piece);
     if (s->mode == PLANT_STICK) {
         stick_whole(s, c, &piece, has_phase, has_floor, is_pressed);
         return;
@@ -258,13 +275,13 @@ BASE_INLINE void advance_whole(struct step_f32 *s, const struct step_f32_coeffs 
 
 static BASE_NOINLINE void advance_phase(struct step_f32 *s, const struct step_f32_coeffs *c)
 {
-    normal_f32_open_step(&s->normal, &c->normal);
+    (void)normal_f32_open_step(&s->normal, &c->normal);
     advance_whole(s, c, true, true, false);
 }
 
 static BASE_NOINLINE void advance_phase_floor(struct step_f32 *s, const struct step_f32_coeffs *c)
 {
-    normal_f32_open_step(&s->normal, &c->normal);
+    (void)normal_f32_open_step(&s->normal, &c->normal);
     advance_whole(s, c, true, true, true);
 }
 
@@ -283,35 +300,11 @@ static BASE_NOINLINE void advance_map(struct step_f32 *s, const struct step_f32_
     advance_whole(s, c, false, true, false);
 }
 
-/* Without an index of phase, or not calm, or in slip backward. */
-static BASE_NOINLINE void advance_other(struct step_f32 *s, const struct step_f32_coeffs *c)
-{
-    switch (c->path) {
-    case STEP_F32_RK4:
-        advance_rk4(s, c);
-        return;
-    case STEP_F32_PHASE:
-        advance_phase(s, c);
-        return;
-    case STEP_F32_PHASE_FLOOR:
-        advance_phase_floor(s, c);
-        return;
-    case STEP_F32_MAP:
-        advance_map(s, c);
-        return;
-    case STEP_F32_MAP_FLOOR:
-        advance_map_floor(s, c);
-        return;
-    default:
-        normal_f32_open_step(&s->normal, &c->normal);
-        advance_in_pieces(s, c, NULL);
-    }
-}
-
 /* --- The paper's set in the usual step: the pad is pressed on the disc throughout, and sticks or slips forward ----- */
 
-BASE_INLINE void slip_calm(struct step_f32 *s, const struct step_f32_coeffs *c, uint32_t phase)
+static BASE_NOINLINE void slip_calm(struct step_f32 *s, const struct step_f32_coeffs *c)
 {
+    const uint32_t phase = normal_f32_open_step(&s->normal, &c->normal);
     struct normal_f32_piece piece;
     struct slip_f32_end end;
 
@@ -330,8 +323,9 @@ BASE_INLINE void slip_calm(struct step_f32 *s, const struct step_f32_coeffs *c, 
     report_pressed(s, c, true, true, false);
 }
 
-BASE_INLINE void stick_calm(struct step_f32 *s, const struct step_f32_coeffs *c, uint32_t phase)
+static BASE_NOINLINE void stick_calm(struct step_f32 *s, const struct step_f32_coeffs *c)
 {
+    const uint32_t phase = normal_f32_open_step(&s->normal, &c->normal);
     struct normal_f32_piece piece;
 
     normal_f32_look_phase(&s->normal, &c->normal, phase, &piece);
@@ -345,31 +339,41 @@ BASE_INLINE void stick_calm(struct step_f32 *s, const struct step_f32_coeffs *c,
     report_pressed(s, c, false, true, false);
 }
 
-/* Nothing is kept across what is called here, so that no register needs to be saved before it is known what. */
-void step_f32_advance(struct step_f32 *state, const struct step_f32_coeffs *coeffs)
-{
-    uint32_t phase = state->normal.phase + coeffs->normal.phase_stride;
+/* ------------------------------------------------------------------------------------------------------------------ */
 
-    if (BASE_UNLIKELY(phase >= state->calm_end || state->mode < 0)) {
-        if (state->calm_end == 0u || state->mode < 0) {
-            advance_other(state, coeffs);
-            return;
-        }
-        phase = normal_f32_turn(&state->normal, phase);
-    }
-    state->normal.phase = phase;
-    if (state->mode == PLANT_STICK) {
-        stick_calm(state, coeffs, phase);
-    } else {
-        slip_calm(state, coeffs, phase);
+static BASE_NOINLINE void advance_other(struct step_f32 *s, const struct step_f32_coeffs *c)
+{
+    switch (s->way) {
+    case WAY_PHASE:
+        advance_phase(s, c);
+        return;
+    case WAY_MAP:
+        advance_map(s, c);
+        return;
+    case WAY_PHASE_FLOOR:
+        advance_phase_floor(s, c);
+        return;
+    case WAY_MAP_FLOOR:
+        advance_map_floor(s, c);
+        return;
+    default:
+        (void)normal_f32_open_step(&s->normal, &c->normal);
+        advance_in_pieces(s, c, NULL);
     }
 }
 
-/* ------------------------------------------------------------------------------------------------------------------ */
-
-static void find_calm(struct step_f32 *s, const struct step_f32_coeffs *c)
+/* Nothing is kept across what is called here, so that no register needs to be saved before it is known what. */
+void step_f32_advance(struct step_f32 *state, const struct step_f32_coeffs *coeffs)
 {
-    s->calm_end = c->path == STEP_F32_PHASE && normal_f32_is_calm(&s->normal) ? SINE_GRID / 4u : 0u;
+    if (state->way == WAY_SLIP_CALM) {
+        slip_calm(state, coeffs);
+    } else if (state->way == WAY_STICK_CALM) {
+        stick_calm(state, coeffs);
+    } else if (state->way == WAY_RK4) {
+        advance_rk4(state, coeffs);
+    } else {
+        advance_other(state, coeffs);
+    }
 }
 
 void step_f32_adopt(struct step_f32 *state, const struct step_f32_coeffs *coeffs)
@@ -379,7 +383,8 @@ void step_f32_adopt(struct step_f32 *state, const struct step_f32_coeffs *coeffs
     turning->carry = coeffs->whole.travel * state->disc;
     turning->drive = slip_f32_drive(&coeffs->whole, state->disc, PLANT_SLIP_PLUS);
     turning->resists = coeffs->whole.drag * state->disc;
-    find_calm(state, coeffs);
+    normal_f32_find_calm(&state->normal);
+    state->way = find_way(state, coeffs);
 }
 
 /* A usual step reports no more than what changes in it. The speed of a sticking pad is the disc's. */
@@ -387,7 +392,7 @@ void step_f32_set_input(struct step_f32 *state, const struct step_f32_coeffs *co
 {
     if (input.load != state->normal.n) {
         normal_f32_set_load(&state->normal, &coeffs->normal, input.load);
-        find_calm(state, coeffs);
+        state->way = find_way(state, coeffs);
     }
     if (input.speed != state->disc) {
         event_f32_set_speed(state, coeffs, input.speed);

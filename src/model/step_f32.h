@@ -19,23 +19,12 @@ struct slip_f32_factors {
     float floor;                /* h/2 times the floor of mu */
 };
 
-/* How a step goes that is tried as a whole, and may turn out to have an event: by the way in which y comes, and whether
- * there is a floor of friction. PIECES: it cannot be tried, for a naive method or a pad that lifts. */
-enum step_f32_path {
-    STEP_F32_PIECES,
-    STEP_F32_PHASE, /* the paper's set */
-    STEP_F32_PHASE_FLOOR,
-    STEP_F32_RK4, /* the paper's set with normal rk4 */
-    STEP_F32_MAP,
-    STEP_F32_MAP_FLOOR
-};
-
 struct step_f32_coeffs {
     struct slip_f32_factors whole;
     float output_length; /* 1/2^length_shift */
     bool has_floor;
     bool is_naive;                                    /* RK4 on the raw sign, no stick: for comparison only */
-    uint8_t path;                                     /* enum step_f32_path */
+    uint8_t path;                                     /* how a step goes unless it is calm: step_f32.c */
     float damping, stiffness, friction, slope, floor; /* C, Z2, mu, eps, floor of mu, for reports */
     struct normal_f32_coeffs normal;
 };
@@ -58,9 +47,7 @@ struct step_f32 {
     float x_rest; /* what rounding took from x so far: without it an equilibrium rustles at 1e-5 of x */
     float disc;   /* disc speed held over the present step */
     int8_t mode;  /* enum plant_mode */
-    uint32_t
-        calm_end; /* of phase: the fast path serves below it. A quarter turn on STEP_F32_PHASE while y is calm, else
-                        * 0 */
+    uint8_t way;  /* how the usual step is made now: step_f32.c */
     struct step_f32_turning turning;
     struct normal_f32 normal;
     struct plant_output output; /* of the last step */

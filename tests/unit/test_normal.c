@@ -34,7 +34,7 @@ static float advance(struct pad *pad)
 {
     struct normal_f32_piece piece;
 
-    normal_f32_open_step(&pad->normal, &pad->coeffs);
+    (void)normal_f32_open_step(&pad->normal, &pad->coeffs);
     normal_f32_look(&pad->normal, &pad->coeffs, pad->coeffs.step, true, &piece);
     normal_f32_move(&pad->normal, &piece);
     (void)normal_f32_close_step(&pad->normal, &pad->coeffs);
