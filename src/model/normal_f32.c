@@ -87,6 +87,7 @@ void normal_f32_reset(struct normal_f32 *normal, const struct normal_f32_coeffs 
     normal->is_lifted = coeffs->contact == CONTACT_LIFT && (y < 0.0f || (y == 0.0f && w < 0.0f));
     normal->is_steady_from_rest = y == 0.0f && w == 0.0f && n >= 0.0f;
     normal->least_force = least_force(normal, coeffs);
+    normal_f32_find_calm(normal);
 }
 
 void normal_f32_set_load(struct normal_f32 *normal, const struct normal_f32_coeffs *coeffs, float n)

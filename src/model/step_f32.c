@@ -15,23 +15,20 @@ static uint32_t to_share(float share)
 }
 
 /* How a step goes. All but PIECES try it as a whole, and may find that it holds an event: they differ by the way in
- * which y comes, and by whether friction has a floor. A naive method, or a pad that lifts, cannot be tried. The calm ones
- * are for the set of PHASE, the paper's, while the pad is pressed on the disc whatever the phase, and sticks or slips
- * forward. */
-enum way { WAY_PIECES, WAY_SLIP_CALM, WAY_STICK_CALM, WAY_PHASE, WAY_RK4, WAY_MAP, WAY_PHASE_FLOOR, WAY_MAP_FLOOR };
+ * which y comes, and by whether friction has a floor. A naive method, or a pad that lifts, cannot be tried. The calm
+ * ones are for the set of PHASE, the paper's, while the pad is pressed on the disc whatever the phase, and sticks or
+ * slips forward. */
+enum way { WAY_PIECES, WAY_SLIP_CALM, WAY_STICK_CALM, WAY_PHASE, WAY_RK4, WAY_MAP, WAY_FLOOR };
 
 static uint8_t find_path(const struct step_f32_coeffs *coeffs, const struct params *params)
 {
     if (coeffs->is_naive || (int)params->contact == CONTACT_LIFT) {
         return WAY_PIECES;
     }
-    if (coeffs->normal.has_phase) {
-        return coeffs->has_floor ? WAY_PHASE_FLOOR : WAY_PHASE;
-    }
     if (coeffs->has_floor) {
-        return WAY_MAP_FLOOR;
+        return WAY_FLOOR;
     }
-    return coeffs->normal.is_exact ? WAY_MAP : WAY_RK4;
+    return coeffs->normal.has_phase ? WAY_PHASE : coeffs->normal.is_exact ? WAY_MAP : WAY_RK4;
 }
 
 static uint8_t find_way(const struct step_f32 *s, const struct step_f32_coeffs *c)
@@ -125,7 +122,7 @@ static BASE_NOINLINE void advance_in_pieces(struct step_f32 *s, const struct ste
 
 /* --- The whole step: tried first wherever it may be without an event ---------------------------------------------- */
 
-/* To the end of the step, which holds no event that another arithmetic need look for. */
+/* y moves on to the end of the step, on its grid or by what it changes. */
 BASE_INLINE void move_normal(struct step_f32 *s, const struct normal_f32_piece *piece, bool has_phase)
 {
     if (has_phase) {
@@ -136,53 +133,44 @@ BASE_INLINE void move_normal(struct step_f32 *s, const struct normal_f32_piece *
     }
 }
 
-/* The step was tried as a whole, up to y and w, and may hold an event: of a slip that was to come to dx and v, and began
- * with the half increment first, or of a stick. As numbers, a shape would have to be put together for every step. */
-static BASE_NOINLINE void slip_event(struct step_f32 *s, const struct step_f32_coeffs *c, float y, float w, float dy,
-                                     float dw, float dx, float v, float first)
+/* The end of a step with a usual event. */
+BASE_INLINE void finish_event(struct step_f32 *s, const struct step_f32_coeffs *c, const struct normal_f32_piece *piece)
 {
-    const struct slip_f32_end end = {dx, v, first, 0.0f};
-    const struct event_f32_attempt attempt = {y, w, dy, dw, &end};
-
-    advance_in_pieces(s, c, &attempt);
-}
-
-static BASE_NOINLINE void stick_event(struct step_f32 *s, const struct step_f32_coeffs *c, float y, float w, float dy,
-                                      float dw)
-{
-    const struct event_f32_attempt attempt = {y, w, dy, dw, NULL};
-
-    advance_in_pieces(s, c, &attempt);
-}
-
-/* The same of a pad that is pressed on the disc, without a floor of friction. */
-static BASE_NOINLINE void slip_event_pressed(struct step_f32 *s, const struct step_f32_coeffs *c, float y, float w,
-                                             float dy, float dw, float dx, float v, float first)
-{
-    const struct normal_f32_piece piece = {.y = y, .w = w, .dy = dy, .dw = dw};
-    const struct slip_f32_end end = {dx, v, first, 0.0f};
-
-    if (!switch_from_slip(s, c, &piece, &end)) {
-        advance_in_pieces(s, c, NULL);
-        return;
-    }
-    move_normal(s, &piece, c->normal.has_phase);
+    move_normal(s, piece, c->normal.has_phase);
     s->way = find_way(s, c);
     report_pressed(s, c, true, false, true);
 }
 
-static BASE_NOINLINE void stick_event_pressed(struct step_f32 *s, const struct step_f32_coeffs *c, float y, float w,
-                                              float dy, float dw)
+/* The step was tried as a whole, up to y and w, and may hold an event: of a slip that was to come to dx and v, and
+ * began with the half increment first. In numbers, since a shape would be put together in every step. */
+static BASE_NOINLINE void slip_event(struct step_f32 *s, const struct step_f32_coeffs *c, bool may_be_usual, float y,
+                                     float w, float dy, float dw, float dx, float v, float first)
+{
+    const struct normal_f32_piece piece = {.y = y, .w = w, .dy = dy, .dw = dw};
+    const struct slip_f32_end end = {dx, v, first, 0.0f};
+
+    if (!may_be_usual) {
+        advance_in_pieces(s, c, &(struct event_f32_attempt){y, w, dy, dw, &end});
+    } else if (switch_from_slip(s, c, &piece, &end)) {
+        finish_event(s, c, &piece);
+    } else {
+        advance_in_pieces(s, c, NULL);
+    }
+}
+
+/* The same of a stick. */
+static BASE_NOINLINE void stick_event(struct step_f32 *s, const struct step_f32_coeffs *c, bool may_be_usual, float y,
+                                      float w, float dy, float dw)
 {
     const struct normal_f32_piece piece = {.y = y, .w = w, .dy = dy, .dw = dw};
 
-    if (!switch_from_stick(s, c, &piece)) {
+    if (!may_be_usual) {
+        advance_in_pieces(s, c, &(struct event_f32_attempt){y, w, dy, dw, NULL});
+    } else if (switch_from_stick(s, c, &piece)) {
+        finish_event(s, c, &piece);
+    } else {
         advance_in_pieces(s, c, NULL);
-        return;
     }
-    move_normal(s, &piece, c->normal.has_phase);
-    s->way = find_way(s, c);
-    report_pressed(s, c, true, false, true);
 }
 
 /* May the slip end inside the step? Asked of the signs alone: vr is beyond 0 at the end, or on the first tangent. What
@@ -220,11 +208,7 @@ BASE_INLINE void slip_whole(struct step_f32 *s, const struct step_f32_coeffs *c,
 
     slip_f32_go(&c->whole, slip_f32_drive(&c->whole, s->disc, s->mode), s->mode, s->x, s->v, piece, &end, has_floor);
     if (BASE_UNLIKELY(may_cross(s->mode, s->disc, &end))) {
-        if (is_pressed && !has_floor) {
-            slip_event_pressed(s, c, piece->y, piece->w, piece->dy, piece->dw, end.dx, end.v, end.first);
-        } else {
-            slip_event(s, c, piece->y, piece->w, piece->dy, piece->dw, end.dx, end.v, end.first);
-        }
+        slip_event(s, c, is_pressed && !has_floor, piece->y, piece->w, piece->dy, piece->dw, end.dx, end.v, end.first);
         return;
     }
     move_x(s, end.dx);
@@ -237,11 +221,7 @@ BASE_INLINE void stick_whole(struct step_f32 *s, const struct step_f32_coeffs *c
                              bool has_phase, bool has_floor, bool is_pressed)
 {
     if (BASE_UNLIKELY(!is_held(s, c, is_pressed ? piece->y : normal_f32_force(&s->normal, piece->y)))) {
-        if (is_pressed && !has_floor) {
-            stick_event_pressed(s, c, piece->y, piece->w, piece->dy, piece->dw);
-        } else {
-            stick_event(s, c, piece->y, piece->w, piece->dy, piece->dw);
-        }
+        stick_event(s, c, is_pressed && !has_floor, piece->y, piece->w, piece->dy, piece->dw);
         return;
     }
     move_x(s, s->turning.carry);
@@ -279,20 +259,15 @@ static BASE_NOINLINE void advance_phase(struct step_f32 *s, const struct step_f3
     advance_whole(s, c, true, true, false);
 }
 
-static BASE_NOINLINE void advance_phase_floor(struct step_f32 *s, const struct step_f32_coeffs *c)
-{
-    (void)normal_f32_open_step(&s->normal, &c->normal);
-    advance_whole(s, c, true, true, true);
-}
-
 static BASE_NOINLINE void advance_rk4(struct step_f32 *s, const struct step_f32_coeffs *c)
 {
     advance_whole(s, c, false, false, false);
 }
 
-static BASE_NOINLINE void advance_map_floor(struct step_f32 *s, const struct step_f32_coeffs *c)
+static BASE_NOINLINE void advance_floor(struct step_f32 *s, const struct step_f32_coeffs *c)
 {
-    advance_whole(s, c, false, c->normal.is_exact, true);
+    (void)normal_f32_open_step(&s->normal, &c->normal);
+    advance_whole(s, c, c->normal.has_phase, c->normal.is_exact, true);
 }
 
 static BASE_NOINLINE void advance_map(struct step_f32 *s, const struct step_f32_coeffs *c)
@@ -300,7 +275,7 @@ static BASE_NOINLINE void advance_map(struct step_f32 *s, const struct step_f32_
     advance_whole(s, c, false, true, false);
 }
 
-/* --- The paper's set in the usual step: the pad is pressed on the disc throughout, and sticks or slips forward ----- */
+/* --- The paper's set in the usual step: the pad is pressed on the disc throughout, and sticks or slips forward ---- */
 
 static BASE_NOINLINE void slip_calm(struct step_f32 *s, const struct step_f32_coeffs *c)
 {
@@ -312,8 +287,8 @@ static BASE_NOINLINE void slip_calm(struct step_f32 *s, const struct step_f32_co
     BASE_BARRIER(); /* what the slip needs is loaded after this, or there are too few registers */
     slip_f32_go(&c->whole, s->turning.drive, PLANT_SLIP_PLUS, s->x, s->v, &piece, &end, false);
     if (BASE_UNLIKELY(may_cross(PLANT_SLIP_PLUS, s->disc, &end))) {
-        slip_event_pressed(s, c, piece.y, piece.w, piece.y - s->normal.y, piece.w - s->normal.w, end.dx, end.v,
-                           end.first);
+        slip_event(s, c, true, piece.y, piece.w, piece.y - s->normal.y, piece.w - s->normal.w, end.dx, end.v,
+                   end.first);
         return;
     }
     move_x(s, end.dx);
@@ -330,7 +305,7 @@ static BASE_NOINLINE void stick_calm(struct step_f32 *s, const struct step_f32_c
 
     normal_f32_look_phase(&s->normal, &c->normal, phase, &piece);
     if (BASE_UNLIKELY(!is_held(s, c, piece.y))) {
-        stick_event_pressed(s, c, piece.y, piece.w, piece.y - s->normal.y, piece.w - s->normal.w);
+        stick_event(s, c, true, piece.y, piece.w, piece.y - s->normal.y, piece.w - s->normal.w);
         return;
     }
     move_x(s, s->turning.carry);
@@ -350,11 +325,8 @@ static BASE_NOINLINE void advance_other(struct step_f32 *s, const struct step_f3
     case WAY_MAP:
         advance_map(s, c);
         return;
-    case WAY_PHASE_FLOOR:
-        advance_phase_floor(s, c);
-        return;
-    case WAY_MAP_FLOOR:
-        advance_map_floor(s, c);
+    case WAY_FLOOR:
+        advance_floor(s, c);
         return;
     default:
         (void)normal_f32_open_step(&s->normal, &c->normal);

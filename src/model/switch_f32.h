@@ -1,8 +1,9 @@
-/* The usual event: a step of a pad that is pressed on the disc and knows no floor of friction, in which it meets the disc once, and sticks or slips from there on,
- * or breaks loose and slips from there on. Computed by the rules and the formulas of event_f32.c, which has all others,
- * with everything known beforehand left out. For step_f32.c alone.
+/* The usual event: a pad that is pressed on the disc, without a floor of friction, meets the disc once in the step, and
+ * sticks or slips from there on, or breaks loose and slips from there on. By the rules and the formulas of event_f32.c,
+ * which has all others, with everything known beforehand left out; for step_f32.c alone. Both sides take the same way,
+ * so that mirrored pads stay mirrored.
  *
- * Each returns false, and has changed nothing, where the step turns out not to be like that. */
+ * Each returns false, and has changed nothing, where the step is not like that. y is left to the caller. */
 #ifndef MODEL_SWITCH_F32_H
 #define MODEL_SWITCH_F32_H
 
