@@ -77,8 +77,9 @@ BASE_INLINE void slip_f32_go(const struct slip_f32_factors *f, float drive, int8
     end->second = v2;
 }
 
-/* Change of x up to where the pad meets the disc, at a place of the piece. v is the cubic on which that place was found,
- * that of vr as seen from side. Its mean up to there is that of its ends less a twelfth of what its slope changes by. */
+/* Change of x up to where the pad meets the disc, at a place of the piece. v is the cubic on which that place was
+ * found: that of vr, as seen from side. Its mean up to there is that of its ends less a twelfth of what its slope
+ * changes by. */
 BASE_INLINE float slip_f32_dx_at_crossing(const struct slip_f32_factors *f, const struct hermite_f32 *vr, int8_t side,
                                           float v, float disc, float place)
 {
