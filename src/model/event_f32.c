@@ -50,7 +50,7 @@ static void move_to(struct work *work, float place, float y)
  * need pulls it to. The same test serves entry and exit: static and kinetic friction are equal at vr = 0. */
 static int8_t regime_at_rest(const struct step_f32 *s, const struct step_f32_coeffs *c, float p, float extra)
 {
-    const float need = stick_need(c, s->x, s->disc) + extra;
+    const float need = stick_need(c, s->x, s->disc) + 0.5f * extra;
     const float limit = c->whole.friction * p;
 
     if (need <= limit && -need <= limit) {
@@ -99,52 +99,41 @@ static void slip(const struct work *work, const struct slip_f32_factors *f, stru
     const struct normal_f32_piece piece = {
         .p1 = force_of(work, stretch->y), .p2 = middle, .p3 = middle, .p4 = force_of(work, stretch->y_end)};
 
-    slip_f32_go(f, s->disc, s->mode, s->x, s->v, &piece, end, work->c->has_floor);
+    slip_f32_go(f, slip_f32_drive(f, s->disc, s->mode), s->mode, s->x, s->v, &piece, end, work->c->has_floor);
 }
 
 /* Looks for vr = 0 in a slip piece that reaches to the end of the stretch, also for a dip below 0 and back. Returns its
- * place on the piece in (0, 1], 0 for "at the start", or NOT_HERE; *last is then the increment at the end. */
+ * place on the piece in (0, 1], 0 for "at the start", or NOT_HERE; *vr is then
+ * as seen from the side of the slip. */
 static float find_crossing(const struct work *work, const struct slip_f32_factors *f, const struct slip_f32_end *end,
-                           float *last)
+                           struct hermite_f32 *vr)
 {
     const struct step_f32 *s = work->s;
     const float f0 = signed_by(s->mode, s->disc - s->v);
     const float f1 = signed_by(s->mode, s->disc - end->v);
-    const float d0 = -signed_by(s->mode, end->first);
-    struct hermite_f32 vr;
+    const float d0 = -2.0f * signed_by(s->mode, end->first);
     float upper = 1.0f;
+    float last;
 
     if (stays_clear(f0, d0, f1)) {
         return NOT_HERE;
     }
-    *last = slip_f32_increment(f, slip_f32_drive(f, s->disc, s->mode), s->mode, s->x + end->dx, end->v,
-                               force_of(work, work->stretch.y_end), work->c->has_floor);
-    vr = hermite_f32_make(f0, d0, f1, -signed_by(s->mode, *last));
+    last = slip_f32_half_increment(f, slip_f32_drive(f, s->disc, s->mode), s->mode, s->x + end->dx, end->v,
+                                   force_of(work, work->stretch.y_end), work->c->has_floor);
+    *vr = hermite_f32_make(f0, d0, f1, -2.0f * signed_by(s->mode, last));
     if (f1 >= 0.0f) {
-        if (signed_by(s->mode, *last) >= 0.0f) {
+        if (signed_by(s->mode, last) >= 0.0f) {
             return NOT_HERE;
         }
-        upper = hermite_f32_minimum(&vr);
-        if (hermite_f32_value(&vr, upper) >= 0.0f) {
+        upper = hermite_f32_minimum(vr);
+        if (hermite_f32_value(vr, upper) >= 0.0f) {
             return NOT_HERE;
         }
     }
     if (f0 <= 0.0f) {
-        return d0 <= 0.0f ? 0.0f : hermite_f32_root_after_start(&vr);
+        return d0 <= 0.0f ? 0.0f : hermite_f32_root_after_start(vr);
     }
-    return hermite_f32_root(&vr, upper);
-}
-
-/* Change of x up to where the pad meets the disc, at a place of the piece. v is the cubic on which that place was
- * found, so its mean up to there is exactly the mean of its ends less a twelfth of what its slope changes by. */
-static float dx_at_crossing(const struct step_f32 *s, const struct slip_f32_factors *f, const struct slip_f32_end *end,
-                            float last, float place)
-{
-    const float rise = end->v - s->v;
-    const float square = 0.5f * rise - (1.0f / 6.0f) * (2.0f * end->first + last);
-    const float cube = 0.25f * (end->first + last) - 0.5f * rise;
-
-    return f->travel * place * (0.5f * (s->v + s->disc) - place * place * (square + place * cube));
+    return hermite_f32_root(vr, upper);
 }
 
 /* Slips on to the end of the stretch or to vr = 0. known is the end of a piece that is a whole step, NULL if it has not
@@ -155,7 +144,7 @@ static void slip_piece(struct work *work, const struct slip_f32_end *known)
     struct slip_f32_factors part;
     const struct slip_f32_factors *factors = take_part(work, 1.0f, &part);
     struct slip_f32_end end;
-    float last;
+    struct hermite_f32 vr;
     float place;
 
     if (known != NULL) {
@@ -163,7 +152,7 @@ static void slip_piece(struct work *work, const struct slip_f32_end *known)
     } else {
         slip(work, factors, &end);
     }
-    place = find_crossing(work, factors, &end, &last);
+    place = find_crossing(work, factors, &end, &vr);
     if (place >= 0.0f && work->progress->events == PLANT_EVENTS_MAX) {
         work->progress->is_capped = true;
         place = NOT_HERE;
@@ -178,7 +167,7 @@ static void slip_piece(struct work *work, const struct slip_f32_end *known)
     if (place > 0.0f) {
         const float meeting = work->stretch.at + place * (1.0f - work->stretch.at);
 
-        move_x(s, dx_at_crossing(s, factors, &end, last, place));
+        move_x(s, slip_f32_dx_at_crossing(factors, &vr, s->mode, s->v, s->disc, place));
         move_to(work, meeting, normal_f32_arc_y(&work->stretch.arc, meeting));
     }
     s->v = s->disc;

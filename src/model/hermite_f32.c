@@ -3,14 +3,6 @@
 
 enum { NEWTON_PASSES = 2 };
 
-struct hermite_f32 hermite_f32_make(float value0, float slope0, float value1, float slope1)
-{
-    const float rise = value1 - value0;
-    const struct hermite_f32 f = {value0, slope0, 3.0f * rise - 2.0f * slope0 - slope1, slope0 + slope1 - 2.0f * rise};
-
-    return f;
-}
-
 float hermite_f32_root(const struct hermite_f32 *f, float upper)
 {
     const float end = hermite_f32_value(f, upper);

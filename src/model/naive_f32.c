@@ -10,8 +10,8 @@ static float increment(const struct step_f32_coeffs *c, float disc, float x, flo
     const struct slip_f32_factors *f = &c->whole;
     const int8_t sign = (int8_t)((disc > v) - (disc < v));
 
-    return sign == 0 ? -stick_need(c, x, v)
-                     : slip_f32_increment(f, slip_f32_drive(f, disc, sign), sign, x, v, p, c->has_floor);
+    return 2.0f * (sign == 0 ? -stick_need(c, x, v)
+                             : slip_f32_half_increment(f, slip_f32_drive(f, disc, sign), sign, x, v, p, c->has_floor));
 }
 
 void naive_f32_step(struct step_f32 *s, const struct step_f32_coeffs *c)

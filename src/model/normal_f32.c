@@ -46,12 +46,14 @@ void normal_f32_configure(struct normal_f32_coeffs *coeffs, const struct params 
 {
     coeffs->damping = scale->normal_damping;
     coeffs->step = scale->step;
+    coeffs->half_step = NORMAL_F32_HALF * scale->step;
     coeffs->phase_stride = SINE_GRID / scale->steps_per_period;
     coeffs->contact = (uint8_t)params->contact;
     coeffs->is_exact = (int)params->normal_method == NORMAL_EXACT;
     coeffs->has_phase = coeffs->is_exact && scale->normal_damping == 0.0f && coeffs->contact != CONTACT_LIFT;
     coeffs->full = make_map(scale->normal_damping, scale->step);
     coeffs->half = make_map(scale->normal_damping, 0.5f * scale->step);
+    coeffs->between = 0.5f / (1.0f + coeffs->half.yy);
 }
 
 /* Printed, the contact pulls where y < 0; the other modes know no pull, and neither does the rounding of a touch at
@@ -59,6 +61,17 @@ void normal_f32_configure(struct normal_f32_coeffs *coeffs, const struct params 
 static float least_force(const struct normal_f32 *normal, const struct normal_f32_coeffs *coeffs)
 {
     return coeffs->contact == CONTACT_BILATERAL && !normal->is_steady_from_rest ? -1e30f : 0.0f;
+}
+
+/* The sum is the amplitude where the motion comes from rest, and then y touches 0. Otherwise the root of squares leaves
+ * room for rounding. */
+void normal_f32_find_calm(struct normal_f32 *normal)
+{
+    const float n = normal->n;
+    const float cosine = fmath_abs(normal->cosine);
+    const float sine = fmath_abs(normal->sine);
+
+    normal->is_calm = cosine + sine <= n || (n >= 0.0f && cosine * cosine + sine * sine < 0.999f * n * n);
 }
 
 void normal_f32_reset(struct normal_f32 *normal, const struct normal_f32_coeffs *coeffs, float y, float w, float n)
@@ -74,6 +87,7 @@ void normal_f32_reset(struct normal_f32 *normal, const struct normal_f32_coeffs 
     normal->is_lifted = coeffs->contact == CONTACT_LIFT && (y < 0.0f || (y == 0.0f && w < 0.0f));
     normal->is_steady_from_rest = y == 0.0f && w == 0.0f && n >= 0.0f;
     normal->least_force = least_force(normal, coeffs);
+    normal_f32_find_calm(normal);
 }
 
 void normal_f32_set_load(struct normal_f32 *normal, const struct normal_f32_coeffs *coeffs, float n)
@@ -86,6 +100,7 @@ void normal_f32_set_load(struct normal_f32 *normal, const struct normal_f32_coef
     if (coeffs->has_phase) {
         normal->cosine -= change * sine_quarter_f32[SINE_GRID / 4u - normal->phase];
         normal->sine -= change * sine_quarter_f32[normal->phase];
+        normal_f32_find_calm(normal);
     }
 }
 
@@ -111,11 +126,11 @@ void normal_f32_look(const struct normal_f32 *normal, const struct normal_f32_co
                      bool is_whole, struct normal_f32_piece *piece)
 {
     if (!coeffs->is_exact) {
-        normal_f32_look_rk4(normal, coeffs, duration, normal->is_lifted ? 0.0f : 1.0f, piece);
+        normal_f32_look_rk4(normal, coeffs, duration, NORMAL_F32_HALF * duration, normal->is_lifted ? 0.0f : 1.0f,
+                            piece);
         normal_f32_press(normal, piece);
     } else if (is_whole && !normal->is_lifted) {
-        normal_f32_look_end(normal, &coeffs->full, piece);
-        normal_f32_look_middle(normal, coeffs, piece);
+        normal_f32_look_map(normal, coeffs, piece);
         normal_f32_press(normal, piece);
     } else {
         look_series(normal, coeffs, duration, piece);
@@ -126,6 +141,7 @@ bool normal_f32_close_step(struct normal_f32 *normal, const struct normal_f32_co
 {
     if (coeffs->has_phase) {
         normal_f32_at(normal, normal->phase, &normal->y, &normal->w);
+        normal->y += normal->n;
     }
     if (normal->is_lifted && normal->y < -PLANT_GAP_MAX) {
         normal->y = -PLANT_GAP_MAX;

@@ -7,14 +7,42 @@
 #include "model/naive_f32.h"
 #include "model/output_f32.h"
 #include "model/slip_f32.h"
+#include "model/switch_f32.h"
 
 static uint32_t to_share(float share)
 {
     return share >= 1.0f ? PLANT_SHARE_ONE : share > 0.0f ? (uint32_t)(share * (float)PLANT_SHARE_ONE) : 0u;
 }
 
+/* How a step goes. All but PIECES try it as a whole, and may find that it holds an event: they differ by the way in
+ * which y comes, and by whether friction has a floor. A naive method, or a pad that lifts, cannot be tried. The calm
+ * ones are for the set of PHASE, the paper's, while the pad is pressed on the disc whatever the phase, and sticks or
+ * slips forward. */
+enum way { WAY_PIECES, WAY_SLIP_CALM, WAY_STICK_CALM, WAY_PHASE, WAY_RK4, WAY_MAP, WAY_FLOOR };
+
+static uint8_t find_path(const struct step_f32_coeffs *coeffs, const struct params *params)
+{
+    if (coeffs->is_naive || (int)params->contact == CONTACT_LIFT) {
+        return WAY_PIECES;
+    }
+    if (coeffs->has_floor) {
+        return WAY_FLOOR;
+    }
+    return coeffs->normal.has_phase ? WAY_PHASE : coeffs->normal.is_exact ? WAY_MAP : WAY_RK4;
+}
+
+static uint8_t find_way(const struct step_f32 *s, const struct step_f32_coeffs *c)
+{
+    if (c->path != WAY_PHASE || !s->normal.is_calm || s->mode == PLANT_SLIP_MINUS) {
+        return c->path;
+    }
+    return s->mode == PLANT_STICK ? WAY_STICK_CALM : WAY_SLIP_CALM;
+}
+
 void step_f32_configure(struct step_f32_coeffs *coeffs, const struct params *params, const struct scale *scale)
 {
+    const float half = NORMAL_F32_HALF * scale->step;
+
     coeffs->damping = scale->damping;
     coeffs->stiffness = scale->stiffness;
     coeffs->friction = scale->friction;
@@ -24,17 +52,15 @@ void step_f32_configure(struct step_f32_coeffs *coeffs, const struct params *par
     coeffs->is_naive = (int)params->tangential_method == METHOD_NAIVE;
     coeffs->output_length = 1.0f / (float)(1u << scale->length_shift);
     normal_f32_configure(&coeffs->normal, params, scale);
-    coeffs->may_be_whole = !coeffs->is_naive && (int)params->contact != CONTACT_LIFT;
-    coeffs->is_plain = coeffs->may_be_whole && coeffs->normal.has_phase && !scale->has_floor;
+    coeffs->path = find_path(coeffs, params);
     coeffs->whole = (struct slip_f32_factors){
         .travel = scale->step,
-        .spring = scale->step * scale->stiffness,
-        .half_stretch = 0.5f * scale->step * scale->step * scale->stiffness,
-        .stretch = scale->step * scale->step * scale->stiffness,
-        .friction = scale->step * scale->friction,
-        .fade = scale->step * scale->friction_slope,
-        .drag = scale->step * scale->damping,
-        .floor = scale->step * scale->friction_floor,
+        .spring = half * scale->stiffness,
+        .stretch = half * half * scale->stiffness,
+        .friction = half * scale->friction,
+        .fade = half * scale->friction_slope,
+        .drag = half * scale->damping,
+        .floor = half * scale->friction_floor,
     };
 }
 
@@ -48,6 +74,7 @@ static void report(struct step_f32 *s, const struct step_f32_coeffs *c, const st
     s->output.has_notes = true;
     s->output.noted = *notes;
     s->output.noted.is_saturated = is_saturated;
+    s->way = find_way(s, c);
 }
 
 void step_f32_reset(struct step_f32 *state, const struct step_f32_coeffs *coeffs, const struct params *params,
@@ -61,6 +88,7 @@ void step_f32_reset(struct step_f32 *state, const struct step_f32_coeffs *coeffs
     state->disc = state->v;
     state->mode = PLANT_SLIP_PLUS;
     event_f32_set_speed(state, coeffs, first.speed);
+    step_f32_adopt(state, coeffs);
     report(state, coeffs, &(struct plant_notes){.events = 0u});
 }
 
@@ -92,30 +120,10 @@ static BASE_NOINLINE void advance_in_pieces(struct step_f32 *s, const struct ste
     report(s, c, &notes);
 }
 
-/* --- The usual step: whole, without an event ---------------------------------------------------------------------- */
+/* --- The whole step: tried first wherever it may be without an event ---------------------------------------------- */
 
-/* The step was tried as a whole, and for a slip up to end, and may hold an event. */
-static BASE_NOINLINE void find_event(struct step_f32 *s, const struct step_f32_coeffs *c, float y, float w, float dy,
-                                     float dw, const struct slip_f32_end *end)
-{
-    const struct event_f32_attempt attempt = {y, w, dy, dw, end};
-
-    advance_in_pieces(s, c, &attempt);
-}
-
-BASE_INLINE void find_event_in(struct step_f32 *s, const struct step_f32_coeffs *c,
-                               const struct normal_f32_piece *piece, bool has_phase, const struct slip_f32_end *end)
-{
-    if (has_phase) {
-        find_event(s, c, piece->y, piece->w, piece->y - s->normal.y, piece->w - s->normal.w, end);
-    } else {
-        find_event(s, c, piece->y, piece->w, piece->dy, piece->dw, end);
-    }
-}
-
-/* Moves on to the end of the step and reports it. */
-BASE_INLINE void finish(struct step_f32 *s, const struct step_f32_coeffs *c, const struct normal_f32_piece *piece,
-                        bool has_phase, bool is_pressed)
+/* y moves on to the end of the step, on its grid or by what it changes. */
+BASE_INLINE void move_normal(struct step_f32 *s, const struct normal_f32_piece *piece, bool has_phase)
 {
     if (has_phase) {
         s->normal.y = piece->y;
@@ -123,150 +131,249 @@ BASE_INLINE void finish(struct step_f32 *s, const struct step_f32_coeffs *c, con
     } else {
         normal_f32_move(&s->normal, piece);
     }
-    report_state(s, c);
-    if (!is_pressed && s->normal.y < 0.0f) {
-        s->output.noted = plant_notes(&s->output);
-        s->output.noted.is_lifted = true;
-        s->output.has_notes = true;
+}
+
+/* The end of a step with a usual event. */
+BASE_INLINE void finish_event(struct step_f32 *s, const struct step_f32_coeffs *c, const struct normal_f32_piece *piece)
+{
+    move_normal(s, piece, c->normal.has_phase);
+    s->way = find_way(s, c);
+    report_pressed(s, c, true, false, true);
+}
+
+/* The step was tried as a whole, up to y and w, and may hold an event: of a slip that was to come to dx and v, and
+ * began with the half increment first. In numbers, since a shape would be put together in every step. */
+static BASE_NOINLINE void slip_event(struct step_f32 *s, const struct step_f32_coeffs *c, bool may_be_usual, float y,
+                                     float w, float dy, float dw, float dx, float v, float first)
+{
+    const struct normal_f32_piece piece = {.y = y, .w = w, .dy = dy, .dw = dw};
+    const struct slip_f32_end end = {dx, v, first, 0.0f};
+
+    if (!may_be_usual) {
+        advance_in_pieces(s, c, &(struct event_f32_attempt){y, w, dy, dw, &end});
+    } else if (switch_from_slip(s, c, &piece, &end)) {
+        finish_event(s, c, &piece);
+    } else {
+        advance_in_pieces(s, c, NULL);
     }
 }
 
-/* May the slip end inside the step? Asked of the signs alone: one way or the other vr is beyond 0 at the end, or on the
- * first tangent. What is not excluded here is for event_f32.c to say. */
-BASE_INLINE bool may_cross(float disc, float v, const struct slip_f32_end *end, int32_t mode)
+/* The same of a stick. */
+static BASE_NOINLINE void stick_event(struct step_f32 *s, const struct step_f32_coeffs *c, bool may_be_usual, float y,
+                                      float w, float dy, float dw)
 {
-    const uint32_t at_end = fmath_bits(disc - end->v);
-    const uint32_t on_tangent = fmath_bits(disc - v - end->first);
-    const uint32_t turned = (uint32_t)mode; /* all ones where the pad overtakes, and then the signs turn */
+    const struct normal_f32_piece piece = {.y = y, .w = w, .dy = dy, .dw = dw};
 
-    return (int32_t)((at_end ^ turned) | (on_tangent ^ turned)) < 0;
+    if (!may_be_usual) {
+        advance_in_pieces(s, c, &(struct event_f32_attempt){y, w, dy, dw, NULL});
+    } else if (switch_from_stick(s, c, &piece)) {
+        finish_event(s, c, &piece);
+    } else {
+        advance_in_pieces(s, c, NULL);
+    }
+}
+
+/* May the slip end inside the step? Asked of the signs alone: vr is beyond 0 at the end, or on the first tangent. What
+ * is not excluded here is for event_f32.c to say. */
+BASE_INLINE bool may_cross(int8_t side, float disc, const struct slip_f32_end *end)
+{
+    const float at_end = signed_by(side, disc - end->v);
+    const float on_tangent = signed_by(side, disc - end->second - end->first);
+
+    return (int32_t)(fmath_bits(at_end) | fmath_bits(on_tangent)) < 0;
+}
+
+/* Does friction hold the pad until the end of the step, where its force is p? */
+BASE_INLINE bool is_held(const struct step_f32 *s, const struct step_f32_coeffs *c, float p)
+{
+    const float need = s->turning.resists + c->whole.spring * (s->x + s->turning.carry);
+
+    return fmath_abs(need) <= c->whole.friction * p;
+}
+
+/* Reports a step without an event. */
+BASE_INLINE void finish(struct step_f32 *s, const struct step_f32_coeffs *c, bool has_moved, bool is_pressed)
+{
+    if (BASE_LIKELY(is_pressed)) {
+        report_pressed(s, c, has_moved, false, false);
+    } else {
+        report_unpressed(s, c);
+    }
 }
 
 BASE_INLINE void slip_whole(struct step_f32 *s, const struct step_f32_coeffs *c, const struct normal_f32_piece *piece,
                             bool has_phase, bool has_floor, bool is_pressed)
 {
-    const int8_t mode = s->mode;
     struct slip_f32_end end;
 
-    slip_f32_go(&c->whole, s->disc, mode, s->x, s->v, piece, &end, has_floor);
-    if (BASE_UNLIKELY(may_cross(s->disc, s->v, &end, mode))) {
-        const struct slip_f32_end reached = end;
-
-        find_event_in(s, c, piece, has_phase, &reached);
+    slip_f32_go(&c->whole, slip_f32_drive(&c->whole, s->disc, s->mode), s->mode, s->x, s->v, piece, &end, has_floor);
+    if (BASE_UNLIKELY(may_cross(s->mode, s->disc, &end))) {
+        slip_event(s, c, is_pressed && !has_floor, piece->y, piece->w, piece->dy, piece->dw, end.dx, end.v, end.first);
         return;
     }
     move_x(s, end.dx);
     s->v = end.v;
-    finish(s, c, piece, has_phase, is_pressed);
+    move_normal(s, piece, has_phase);
+    finish(s, c, true, is_pressed);
 }
 
-/* The step is whole if friction still holds the pad at its end. */
 BASE_INLINE void stick_whole(struct step_f32 *s, const struct step_f32_coeffs *c, const struct normal_f32_piece *piece,
-                             bool has_phase, bool is_pressed)
+                             bool has_phase, bool has_floor, bool is_pressed)
 {
-    const float dx = c->whole.travel * s->disc;
-    const float need = stick_need(c, s->x + dx, s->disc);
-    const float p = is_pressed ? piece->y : normal_f32_force(&s->normal, piece->y);
-
-    if (BASE_UNLIKELY(!(fmath_abs(need) <= c->whole.friction * p))) {
-        find_event_in(s, c, piece, has_phase, NULL);
+    if (BASE_UNLIKELY(!is_held(s, c, is_pressed ? piece->y : normal_f32_force(&s->normal, piece->y)))) {
+        stick_event(s, c, is_pressed && !has_floor, piece->y, piece->w, piece->dy, piece->dw);
         return;
     }
-    move_x(s, dx);
-    finish(s, c, piece, has_phase, is_pressed);
+    move_x(s, s->turning.carry);
+    move_normal(s, piece, has_phase);
+    finish(s, c, false, is_pressed);
 }
 
-/* The contact may pull, or not press: y < 0 now or then. */
-BASE_INLINE void advance_whole(struct step_f32 *s, const struct step_f32_coeffs *c, bool has_phase, bool has_floor)
+BASE_INLINE void advance_whole(struct step_f32 *s, const struct step_f32_coeffs *c, bool has_phase, bool is_exact,
+                               bool has_floor)
 {
     struct normal_f32_piece piece;
+    bool is_pressed;
 
     if (has_phase) {
-        normal_f32_at(&s->normal, s->normal.phase, &piece.y, &piece.w);
-    } else if (c->normal.is_exact) {
-        normal_f32_look_end(&s->normal, &c->normal.full, &piece);
+        normal_f32_look_phase(&s->normal, &c->normal, s->normal.phase, &piece);
+    } else if (is_exact) {
+        normal_f32_look_map(&s->normal, &c->normal, &piece);
     } else {
-        normal_f32_look_rk4(&s->normal, &c->normal, c->normal.step, 1.0f, &piece);
+        normal_f32_look_rk4(&s->normal, &c->normal, c->normal.step, c->normal.half_step, 1.0f, &piece);
     }
+    is_pressed = (has_phase && s->normal.is_calm) || normal_f32_is_pressed(&piece);
     if (s->mode == PLANT_STICK) {
-        stick_whole(s, c, &piece, has_phase, false);
+        stick_whole(s, c, &piece, has_phase, has_floor, is_pressed);
         return;
     }
-    if (has_phase || c->normal.is_exact) {
-        normal_f32_look_middle(&s->normal, &c->normal, &piece);
+    if (BASE_UNLIKELY(!is_pressed)) {
+        normal_f32_press(&s->normal, &piece);
     }
-    normal_f32_press(&s->normal, &piece);
-    slip_whole(s, c, &piece, has_phase, has_floor, false);
+    slip_whole(s, c, &piece, has_phase, has_floor, is_pressed);
 }
 
-static BASE_NOINLINE void advance_phase_floor(struct step_f32 *s, const struct step_f32_coeffs *c)
+static BASE_NOINLINE void advance_phase(struct step_f32 *s, const struct step_f32_coeffs *c)
 {
-    advance_whole(s, c, true, true);
+    (void)normal_f32_open_step(&s->normal, &c->normal);
+    advance_whole(s, c, true, true, false);
+}
+
+static BASE_NOINLINE void advance_rk4(struct step_f32 *s, const struct step_f32_coeffs *c)
+{
+    advance_whole(s, c, false, false, false);
+}
+
+static BASE_NOINLINE void advance_floor(struct step_f32 *s, const struct step_f32_coeffs *c)
+{
+    (void)normal_f32_open_step(&s->normal, &c->normal);
+    advance_whole(s, c, c->normal.has_phase, c->normal.is_exact, true);
 }
 
 static BASE_NOINLINE void advance_map(struct step_f32 *s, const struct step_f32_coeffs *c)
 {
-    advance_whole(s, c, false, false);
+    advance_whole(s, c, false, true, false);
 }
 
-static BASE_NOINLINE void advance_map_floor(struct step_f32 *s, const struct step_f32_coeffs *c)
+/* --- The paper's set in the usual step: the pad is pressed on the disc throughout, and sticks or slips forward ---- */
+
+static BASE_NOINLINE void slip_calm(struct step_f32 *s, const struct step_f32_coeffs *c)
 {
-    advance_whole(s, c, false, true);
+    const uint32_t phase = normal_f32_open_step(&s->normal, &c->normal);
+    struct normal_f32_piece piece;
+    struct slip_f32_end end;
+
+    normal_f32_look_phase(&s->normal, &c->normal, phase, &piece);
+    BASE_BARRIER(); /* what the slip needs is loaded after this, or there are too few registers */
+    slip_f32_go(&c->whole, s->turning.drive, PLANT_SLIP_PLUS, s->x, s->v, &piece, &end, false);
+    if (BASE_UNLIKELY(may_cross(PLANT_SLIP_PLUS, s->disc, &end))) {
+        slip_event(s, c, true, piece.y, piece.w, piece.y - s->normal.y, piece.w - s->normal.w, end.dx, end.v,
+                   end.first);
+        return;
+    }
+    move_x(s, end.dx);
+    s->v = end.v;
+    s->normal.y = piece.y;
+    s->normal.w = piece.w;
+    report_pressed(s, c, true, true, false);
 }
 
-static BASE_NOINLINE void advance_unpressed(struct step_f32 *s, const struct step_f32_coeffs *c)
+static BASE_NOINLINE void stick_calm(struct step_f32 *s, const struct step_f32_coeffs *c)
 {
-    advance_whole(s, c, true, false);
-}
-
-/* The same for the paper's set and a pad that is pressed on the disc throughout, as signs alone can tell. */
-BASE_INLINE void advance_plain(struct step_f32 *s, const struct step_f32_coeffs *c, uint32_t phase)
-{
+    const uint32_t phase = normal_f32_open_step(&s->normal, &c->normal);
     struct normal_f32_piece piece;
 
-    normal_f32_at(&s->normal, phase, &piece.y, &piece.w);
-    if (s->mode == PLANT_STICK) {
-        if (BASE_LIKELY((int32_t)fmath_bits(piece.y) >= 0)) {
-            stick_whole(s, c, &piece, true, true);
-            return;
-        }
-    } else {
-        normal_f32_look_middle(&s->normal, &c->normal, &piece);
-        if (BASE_LIKELY((int32_t)(fmath_bits(piece.p1) | fmath_bits(piece.p2) | fmath_bits(piece.p4)) >= 0)) {
-            slip_whole(s, c, &piece, true, false, true);
-            return;
-        }
+    normal_f32_look_phase(&s->normal, &c->normal, phase, &piece);
+    if (BASE_UNLIKELY(!is_held(s, c, piece.y))) {
+        stick_event(s, c, true, piece.y, piece.w, piece.y - s->normal.y, piece.w - s->normal.w);
+        return;
     }
-    advance_unpressed(s, c);
+    move_x(s, s->turning.carry);
+    s->normal.y = piece.y;
+    s->normal.w = piece.w;
+    report_pressed(s, c, false, true, false);
 }
 
 /* ------------------------------------------------------------------------------------------------------------------ */
 
-/* Nothing is kept across what is called here, so that no register needs to be saved before it is known what. */
-void step_f32_advance(struct step_f32 *state, const struct step_f32_coeffs *coeffs)
+static BASE_NOINLINE void advance_other(struct step_f32 *s, const struct step_f32_coeffs *c)
 {
-    const uint32_t phase = normal_f32_open_step(&state->normal, &coeffs->normal);
-
-    if (BASE_LIKELY(coeffs->is_plain)) {
-        advance_plain(state, coeffs, phase);
-    } else if (!coeffs->may_be_whole) {
-        advance_in_pieces(state, coeffs, NULL);
-    } else if (coeffs->normal.has_phase) {
-        advance_phase_floor(state, coeffs);
-    } else if (coeffs->has_floor) {
-        advance_map_floor(state, coeffs);
-    } else {
-        advance_map(state, coeffs);
+    switch (s->way) {
+    case WAY_PHASE:
+        advance_phase(s, c);
+        return;
+    case WAY_MAP:
+        advance_map(s, c);
+        return;
+    case WAY_FLOOR:
+        advance_floor(s, c);
+        return;
+    default:
+        (void)normal_f32_open_step(&s->normal, &c->normal);
+        advance_in_pieces(s, c, NULL);
     }
 }
 
+/* Nothing is kept across what is called here, so that no register needs to be saved before it is known what. */
+void step_f32_advance(struct step_f32 *state, const struct step_f32_coeffs *coeffs)
+{
+    if (state->way == WAY_SLIP_CALM) {
+        slip_calm(state, coeffs);
+    } else if (state->way == WAY_STICK_CALM) {
+        stick_calm(state, coeffs);
+    } else if (state->way == WAY_RK4) {
+        advance_rk4(state, coeffs);
+    } else {
+        advance_other(state, coeffs);
+    }
+}
+
+void step_f32_adopt(struct step_f32 *state, const struct step_f32_coeffs *coeffs)
+{
+    struct step_f32_turning *turning = &state->turning;
+
+    turning->carry = coeffs->whole.travel * state->disc;
+    turning->drive = slip_f32_drive(&coeffs->whole, state->disc, PLANT_SLIP_PLUS);
+    turning->resists = coeffs->whole.drag * state->disc;
+    normal_f32_find_calm(&state->normal);
+    state->way = find_way(state, coeffs);
+}
+
+/* A usual step reports no more than what changes in it. The speed of a sticking pad is the disc's. */
 void step_f32_set_input(struct step_f32 *state, const struct step_f32_coeffs *coeffs, struct step_f32_input input)
 {
     if (input.load != state->normal.n) {
         normal_f32_set_load(&state->normal, &coeffs->normal, input.load);
+        state->way = find_way(state, coeffs);
     }
     if (input.speed != state->disc) {
         event_f32_set_speed(state, coeffs, input.speed);
+        state->output.disc = inside_q27(input.speed);
+        if (state->mode == PLANT_STICK) {
+            state->output.v = state->output.disc;
+        }
+        state->output.mode = state->mode;
+        step_f32_adopt(state, coeffs);
     }
 }
 

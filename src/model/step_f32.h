@@ -11,22 +11,20 @@
 #include "model/plant.h"
 #include "model/scale.h"
 
-/* What the tangential equation is made of, times the duration of a piece in 1/wn; of a whole step that is h. */
+/* What the tangential equation is made of, times half the duration of a piece in 1/wn; of a whole step that is h/2. */
 struct slip_f32_factors {
-    float travel;                /* h: x per v */
-    float spring;                /* h Z2 */
-    float half_stretch, stretch; /* h Z2 h/2 and h Z2 h: what a velocity adds to the spring's increment */
-    float friction, fade, drag;  /* h mu, h eps, h C */
-    float floor;                 /* h times the floor of mu */
+    float travel;               /* h: x per v */
+    float spring, stretch;      /* h/2 Z2; h/2 Z2 h/2, what a velocity adds to the pull of the spring by half a step */
+    float friction, fade, drag; /* h/2 mu, h/2 eps, h/2 C */
+    float floor;                /* h/2 times the floor of mu */
 };
 
 struct step_f32_coeffs {
     struct slip_f32_factors whole;
     float output_length; /* 1/2^length_shift */
     bool has_floor;
-    bool is_naive;     /* RK4 on the raw sign, no stick: for comparison only */
-    bool may_be_whole; /* neither naive nor a pad that lifts: most steps have nothing to locate */
-    bool is_plain; /* of these, undamped closed form of y and no floor, the paper's set: the fast path is made for it */
+    bool is_naive;                                    /* RK4 on the raw sign, no stick: for comparison only */
+    uint8_t path;                                     /* how a step goes unless it is calm: step_f32.c */
     float damping, stiffness, friction, slope, floor; /* C, Z2, mu, eps, floor of mu, for reports */
     struct normal_f32_coeffs normal;
 };
@@ -36,11 +34,21 @@ struct step_f32_input {
     float load, speed;
 };
 
+/* What a step needs of the disc's speed under the present coefficients: the same in every step until one of them
+ * changes. */
+struct step_f32_turning {
+    float carry;   /* x in a step while the pad sticks */
+    float drive;   /* h/2 (mu + eps disc), what drives a pad that slips forward */
+    float resists; /* h/2 C disc, what damping does to a pad that sticks */
+};
+
 struct step_f32 {
     float x, v;   /* displacement and velocity of the pad along the disc */
     float x_rest; /* what rounding took from x so far: without it an equilibrium rustles at 1e-5 of x */
     float disc;   /* disc speed held over the present step */
     int8_t mode;  /* enum plant_mode */
+    uint8_t way;  /* how the usual step is made now: step_f32.c */
+    struct step_f32_turning turning;
     struct normal_f32 normal;
     struct plant_output output; /* of the last step */
 };
@@ -51,6 +59,9 @@ void step_f32_configure(struct step_f32_coeffs *coeffs, const struct params *par
 /* Initial state of the set under the first input, with nothing having happened. [ANY] */
 void step_f32_reset(struct step_f32 *state, const struct step_f32_coeffs *coeffs, const struct params *params,
                     const struct scale *scale, struct step_f32_input first);
+
+/* Other coefficients are in force from here on, or the state has been put back as it stood under these. [ISR] */
+void step_f32_adopt(struct step_f32 *state, const struct step_f32_coeffs *coeffs);
 
 /* What is held over the steps to come. [ISR] */
 void step_f32_set_input(struct step_f32 *state, const struct step_f32_coeffs *coeffs, struct step_f32_input input);

@@ -75,6 +75,8 @@ static void adopt(struct sim *sim, const struct sim_plan *plan)
     sim->is_usual = false;
     if (plan->arithmetic == ARITH_Q27) {
         step_q27_adopt(&sim->q27, &plan->q27);
+    } else {
+        step_f32_adopt(&sim->f32, &plan->f32);
     }
 }
 

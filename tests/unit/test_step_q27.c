@@ -271,6 +271,7 @@ static void check_headroom(const char *assignments, float tolerance)
         f32.mode = q27.mode;
         normal_f32_reset(&f32.normal, &plant.plan.f32.normal, (float)q27.normal.y * UNIT, (float)q27.normal.w * UNIT,
                          (float)q27.normal.n * UNIT);
+        step_f32_adopt(&f32, &plant.plan.f32);
         step_q27_advance(&q27, &plant.plan.q27);
         step_f32_advance(&f32, &plant.plan.f32);
         if (q27.is_saturated) {
