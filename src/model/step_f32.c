@@ -14,54 +14,12 @@ static uint32_t to_share(float share)
     return share >= 1.0f ? PLANT_SHARE_ONE : share > 0.0f ? (uint32_t)(share * (float)PLANT_SHARE_ONE) : 0u;
 }
 
-/* How a step goes. All but PIECES try it as a whole, and may find that it holds an event: they differ by the way in
- * which y comes, and by whether friction has a floor. A naive method, or a pad that lifts, cannot be tried. The calm
- * ones are for the set of PHASE, the paper's, while the pad is pressed on the disc whatever the phase, and sticks or
- * slips forward. */
-enum way { WAY_PIECES, WAY_SLIP_CALM, WAY_STICK_CALM, WAY_PHASE, WAY_RK4, WAY_MAP, WAY_FLOOR };
-
-static uint8_t find_path(const struct step_f32_coeffs *coeffs, const struct params *params)
-{
-    if (coeffs->is_naive || (int)params->contact == CONTACT_LIFT) {
-        return WAY_PIECES;
-    }
-    if (coeffs->has_floor) {
-        return WAY_FLOOR;
-    }
-    return coeffs->normal.has_phase ? WAY_PHASE : coeffs->normal.is_exact ? WAY_MAP : WAY_RK4;
-}
-
 static uint8_t find_way(const struct step_f32 *s, const struct step_f32_coeffs *c)
 {
-    if (c->path != WAY_PHASE || !s->normal.is_calm || s->mode == PLANT_SLIP_MINUS) {
+    if (c->path != STEP_F32_PHASE || !s->normal.is_calm || s->mode == PLANT_SLIP_MINUS) {
         return c->path;
     }
-    return s->mode == PLANT_STICK ? WAY_STICK_CALM : WAY_SLIP_CALM;
-}
-
-void step_f32_configure(struct step_f32_coeffs *coeffs, const struct params *params, const struct scale *scale)
-{
-    const float half = NORMAL_F32_HALF * scale->step;
-
-    coeffs->damping = scale->damping;
-    coeffs->stiffness = scale->stiffness;
-    coeffs->friction = scale->friction;
-    coeffs->slope = scale->friction_slope;
-    coeffs->floor = scale->friction_floor;
-    coeffs->has_floor = scale->has_floor;
-    coeffs->is_naive = (int)params->tangential_method == METHOD_NAIVE;
-    coeffs->output_length = 1.0f / (float)(1u << scale->length_shift);
-    normal_f32_configure(&coeffs->normal, params, scale);
-    coeffs->path = find_path(coeffs, params);
-    coeffs->whole = (struct slip_f32_factors){
-        .travel = scale->step,
-        .spring = half * scale->stiffness,
-        .stretch = half * half * scale->stiffness,
-        .friction = half * scale->friction,
-        .fade = half * scale->friction_slope,
-        .drag = half * scale->damping,
-        .floor = half * scale->friction_floor,
-    };
+    return s->mode == PLANT_STICK ? STEP_F32_STICK_CALM : STEP_F32_SLIP_CALM;
 }
 
 /* Of an unusual step. */
@@ -319,13 +277,13 @@ static BASE_NOINLINE void stick_calm(struct step_f32 *s, const struct step_f32_c
 static BASE_NOINLINE void advance_other(struct step_f32 *s, const struct step_f32_coeffs *c)
 {
     switch (s->way) {
-    case WAY_PHASE:
+    case STEP_F32_PHASE:
         advance_phase(s, c);
         return;
-    case WAY_MAP:
+    case STEP_F32_MAP:
         advance_map(s, c);
         return;
-    case WAY_FLOOR:
+    case STEP_F32_FLOOR:
         advance_floor(s, c);
         return;
     default:
@@ -337,11 +295,11 @@ static BASE_NOINLINE void advance_other(struct step_f32 *s, const struct step_f3
 /* Nothing is kept across what is called here, so that no register needs to be saved before it is known what. */
 void step_f32_advance(struct step_f32 *state, const struct step_f32_coeffs *coeffs)
 {
-    if (state->way == WAY_SLIP_CALM) {
+    if (state->way == STEP_F32_SLIP_CALM) {
         slip_calm(state, coeffs);
-    } else if (state->way == WAY_STICK_CALM) {
+    } else if (state->way == STEP_F32_STICK_CALM) {
         stick_calm(state, coeffs);
-    } else if (state->way == WAY_RK4) {
+    } else if (state->way == STEP_F32_RK4) {
         advance_rk4(state, coeffs);
     } else {
         advance_other(state, coeffs);

@@ -19,12 +19,26 @@ struct slip_f32_factors {
     float floor;                /* h/2 times the floor of mu */
 };
 
+/* How a step goes. All but PIECES try it as a whole, and may find that it holds an event: they differ by the way in
+ * which y comes, and by whether friction has a floor. A naive method, or a pad that lifts, cannot be tried. The calm
+ * ones are for the set of PHASE, the paper's, while the pad is pressed on the disc whatever the phase, and sticks or
+ * slips forward. */
+enum step_f32_way {
+    STEP_F32_PIECES,
+    STEP_F32_SLIP_CALM,
+    STEP_F32_STICK_CALM,
+    STEP_F32_PHASE,
+    STEP_F32_RK4,
+    STEP_F32_MAP,
+    STEP_F32_FLOOR
+};
+
 struct step_f32_coeffs {
     struct slip_f32_factors whole;
     float output_length; /* 1/2^length_shift */
     bool has_floor;
     bool is_naive;                                    /* RK4 on the raw sign, no stick: for comparison only */
-    uint8_t path;                                     /* how a step goes unless it is calm: step_f32.c */
+    uint8_t path;                                     /* enum step_f32_way, unless the step is calm */
     float damping, stiffness, friction, slope, floor; /* C, Z2, mu, eps, floor of mu, for reports */
     struct normal_f32_coeffs normal;
 };
@@ -47,7 +61,7 @@ struct step_f32 {
     float x_rest; /* what rounding took from x so far: without it an equilibrium rustles at 1e-5 of x */
     float disc;   /* disc speed held over the present step */
     int8_t mode;  /* enum plant_mode */
-    uint8_t way;  /* how the usual step is made now: step_f32.c */
+    uint8_t way;  /* enum step_f32_way */
     struct step_f32_turning turning;
     struct normal_f32 normal;
     struct plant_output output; /* of the last step */
