@@ -1,8 +1,8 @@
 /* Registers: Arm Cortex-M System Design Kit (DDI 0479), section 4.3 "APB UART". */
 #include "cmsdk_uart.h"
 
-#include "base/ring.h"
 #include "cortex_m/nvic.h"
+#include "cortex_m/uart_inbox.h"
 
 enum {
     STATE_TX_FULL = 1 << 0,
@@ -13,7 +13,6 @@ enum {
     CTRL_RX_INTERRUPT = 1 << 3,
     INTERRUPT_TX = 1 << 0, /* write 1 to clear */
     INTERRUPT_RX = 1 << 1,
-    RX_CAPACITY = 4096,
     BYTES_PER_INTERRUPT = 32
 };
 
@@ -27,12 +26,8 @@ struct cmsdk_uart_block {
 
 struct port {
     struct cmsdk_uart_block *block;
-    unsigned rx_irq;
     uint32_t baud;
-    struct ring received;
-    uint8_t bytes[RX_CAPACITY];
-    volatile uint32_t lost; /* written by the interrupt alone */
-    volatile bool is_held;  /* set by the interrupt as it masks itself, cleared by main before it unmasks */
+    struct uart_inbox inbox;
 };
 
 static struct port ports[HAL_UART_COUNT];
@@ -50,10 +45,8 @@ void cmsdk_uart_open(enum hal_uart port, const struct cmsdk_uart_wiring *wiring)
     struct port *const own = &ports[port];
 
     own->block = block_at(wiring->base);
-    own->rx_irq = wiring->rx_irq;
     own->baud = wiring->baud;
-    ring_init(&own->received, own->bytes, 1u, RX_CAPACITY);
-
+    uart_inbox_open(&own->inbox, wiring->rx_irq);
     line_on(own->block, wiring->clock_hz, wiring->baud);
     nvic_set_priority(wiring->tx_irq, NVIC_PRIORITY_LOW);
     nvic_set_priority(wiring->rx_irq, NVIC_PRIORITY_RECEIVE); /* last: it counts where both share a line */
@@ -62,26 +55,19 @@ void cmsdk_uart_open(enum hal_uart port, const struct cmsdk_uart_wiring *wiring)
     (void)own->block->data; /* An emulator that has bytes for us gives the first one when it is asked for it. */
 }
 
-/* Takes the byte that the UART holds into the ring; false if there is none, or if it must stay where it is. */
+/* Takes the byte that the UART holds; false if there is none, or if it must stay where it is. */
 static bool take_byte(struct port *own)
 {
     const uint32_t state = own->block->state;
-    uint8_t byte;
 
     if ((state & STATE_RX_OVERRUN) != 0u) {
         own->block->state = STATE_RX_OVERRUN;
-        own->lost++;
+        uart_inbox_count_loss(&own->inbox);
     }
-    if ((state & STATE_RX_FULL) == 0u) {
+    if ((state & STATE_RX_FULL) == 0u || !uart_inbox_has_room(&own->inbox)) {
         return false;
     }
-    if (ring_fill(&own->received) == RX_CAPACITY) {
-        own->is_held = true;
-        nvic_disable(own->rx_irq);
-        return false;
-    }
-    byte = (uint8_t)own->block->data;
-    (void)ring_push(&own->received, &byte); /* Cannot fail: there was room, and main only makes more. */
+    uart_inbox_put(&own->inbox, (uint8_t)own->block->data);
     return true;
 }
 
@@ -119,10 +105,7 @@ bool cmsdk_uart_is_quiet(enum hal_uart port)
     const struct port *const own = &ports[port];
     const bool is_refused = (own->block->ctrl & CTRL_TX_INTERRUPT) != 0u;
 
-    if (ring_fill(&own->received) != 0u) {
-        return false;
-    }
-    return !is_refused || (own->block->state & STATE_TX_FULL) != 0u;
+    return uart_inbox_is_empty(&own->inbox) && (!is_refused || (own->block->state & STATE_TX_FULL) != 0u);
 }
 
 void cmsdk_uart_put(const struct cmsdk_uart_wiring *wiring, char byte)
@@ -158,19 +141,7 @@ size_t hal_uart_write(enum hal_uart port, const void *data, size_t size)
 
 size_t hal_uart_read(enum hal_uart port, void *data, size_t size)
 {
-    struct port *const own = &ports[port];
-    uint8_t *const bytes = data;
-    size_t count = 0u;
-
-    while (count < size && ring_pop(&own->received, &bytes[count])) {
-        count++;
-    }
-    if (count > 0u && own->is_held) {
-        own->is_held = false;
-        nvic_enable(own->rx_irq);
-        nvic_pend(own->rx_irq); /* The held byte has had its interrupt already. */
-    }
-    return count;
+    return uart_inbox_take(&ports[port].inbox, data, size);
 }
 
-uint32_t hal_uart_lost(enum hal_uart port) { return ports[port].lost; }
+uint32_t hal_uart_lost(enum hal_uart port) { return ports[port].inbox.lost; }

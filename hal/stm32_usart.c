@@ -1,8 +1,8 @@
 /* Registers: RM0090 (STM32F405 reference manual), section 30.6 "USART registers". */
 #include "stm32_usart.h"
 
-#include "base/ring.h"
 #include "cortex_m/nvic.h"
+#include "cortex_m/uart_inbox.h"
 
 enum {
     SR_OVERRUN = 1 << 3, /* cleared by reading SR, then DR */
@@ -14,8 +14,7 @@ enum {
     CR1_RX_INTERRUPT = 1 << 5,
     CR1_TX_INTERRUPT = 1 << 7,
     CR1_ON = 1 << 13,
-    CR1_LINE_ON = CR1_ON | CR1_TRANSMITTER | CR1_RECEIVER,
-    RX_CAPACITY = 4096
+    CR1_LINE_ON = CR1_ON | CR1_TRANSMITTER | CR1_RECEIVER
 };
 
 struct stm32_usart_block {
@@ -27,12 +26,8 @@ struct stm32_usart_block {
 
 struct port {
     struct stm32_usart_block *block;
-    unsigned irq;
     uint32_t baud;
-    struct ring received;
-    uint8_t bytes[RX_CAPACITY];
-    volatile uint32_t lost; /* written by the interrupt alone */
-    volatile bool is_held;  /* set by the interrupt as it masks itself, cleared by main before it unmasks */
+    struct uart_inbox inbox;
 };
 
 static struct port ports[HAL_UART_COUNT];
@@ -57,35 +52,31 @@ void stm32_usart_open(enum hal_uart port, const struct stm32_usart_wiring *wirin
     struct port *const own = &ports[port];
 
     own->block = block_at(wiring->base);
-    own->irq = wiring->irq;
     own->baud = wiring->baud;
-    ring_init(&own->received, own->bytes, 1u, RX_CAPACITY);
+    uart_inbox_open(&own->inbox, wiring->irq);
     stm32_usart_set_line(wiring);
     own->block->cr1 = CR1_LINE_ON | CR1_RX_INTERRUPT;
     nvic_set_priority(wiring->irq, NVIC_PRIORITY_RECEIVE);
     nvic_enable(wiring->irq);
 }
 
-/* Takes the byte that the USART holds into the ring; false if there is none, or if it must stay where it is. Then the
- * interrupt is masked at the controller: an emulator's line stays raised until the byte is read, whatever the USART's
- * own mask says. */
+/* Takes the byte that the USART holds; false if there is none, or if it must stay where it is. Then the interrupt is
+ * masked at the controller: an emulator's line stays raised until the byte is read, whatever the USART's own mask
+ * says. */
 static bool take_byte(struct port *own)
 {
     const uint32_t state = own->block->sr;
     uint8_t byte;
 
-    if ((state & (SR_RECEIVED | SR_OVERRUN)) == 0u) {
+    if ((state & (SR_RECEIVED | SR_OVERRUN)) == 0u || !uart_inbox_has_room(&own->inbox)) {
         return false;
     }
-    if (ring_fill(&own->received) == RX_CAPACITY) {
-        own->is_held = true;
-        nvic_disable(own->irq);
-        return false;
+    if ((state & SR_OVERRUN) != 0u) {
+        uart_inbox_count_loss(&own->inbox);
     }
-    own->lost += (state & SR_OVERRUN) != 0u ? 1u : 0u;
     byte = (uint8_t)own->block->dr;
     if ((state & SR_RECEIVED) != 0u) {
-        (void)ring_push(&own->received, &byte); /* there was room, and main only makes more */
+        uart_inbox_put(&own->inbox, byte);
     }
     return true;
 }
@@ -106,7 +97,7 @@ bool stm32_usart_is_quiet(enum hal_uart port)
     const struct port *const own = &ports[port];
     const bool is_refused = (own->block->cr1 & CR1_TX_INTERRUPT) != 0u;
 
-    return ring_fill(&own->received) == 0u && (!is_refused || (own->block->sr & SR_TX_EMPTY) == 0u);
+    return uart_inbox_is_empty(&own->inbox) && (!is_refused || (own->block->sr & SR_TX_EMPTY) == 0u);
 }
 
 void stm32_usart_put(const struct stm32_usart_wiring *wiring, char byte)
@@ -139,19 +130,7 @@ size_t hal_uart_write(enum hal_uart port, const void *data, size_t size)
 
 size_t hal_uart_read(enum hal_uart port, void *data, size_t size)
 {
-    struct port *const own = &ports[port];
-    uint8_t *const bytes = data;
-    size_t count = 0u;
-
-    while (count < size && ring_pop(&own->received, &bytes[count])) {
-        count++;
-    }
-    if (count > 0u && own->is_held) {
-        own->is_held = false;
-        nvic_enable(own->irq);
-        nvic_pend(own->irq); /* the held byte has had its interrupt already */
-    }
-    return count;
+    return uart_inbox_take(&ports[port].inbox, data, size);
 }
 
-uint32_t hal_uart_lost(enum hal_uart port) { return ports[port].lost; }
+uint32_t hal_uart_lost(enum hal_uart port) { return ports[port].inbox.lost; }
