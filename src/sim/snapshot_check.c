@@ -43,7 +43,7 @@ static bool is_sound_f32(const struct step_f32 *plant)
            is_within_f32(normal->y_rest, REST_MAX_F32) && is_within_f32(normal->w_rest, REST_MAX_F32) &&
            is_within_f32(plant->disc, UNIT_MAX) && is_within_f32(normal->n, LOAD_MAX) &&
            is_within_f32(normal->cosine, AMPLITUDE_MAX) && is_within_f32(normal->sine, AMPLITUDE_MAX) &&
-           normal->least_force <= 0.0f;
+           normal->phase < SINE_GRID / 4u && normal->least_force <= 0.0f;
 }
 
 /* Is a b no longer than this as a vector? */
@@ -154,6 +154,13 @@ static bool is_sound_search(const struct detector *detector)
            (search->stage == STAGE_IDLE || detector->frame != 0u);
 }
 
+/* A frame that is full stands until the step after it. */
+static bool is_sound_count(const struct detector *detector)
+{
+    return detector->periods < DETECTOR_FRAME_PERIODS ||
+           (detector->periods == DETECTOR_FRAME_PERIODS && detector->search.stage == STAGE_MEASURE);
+}
+
 static bool is_sound_detector(const struct detector *detector, const struct detector_config *config)
 {
     for (unsigned i = 0u; i < DETECTOR_WINDOW_FRAMES; i++) {
@@ -161,9 +168,9 @@ static bool is_sound_detector(const struct detector *detector, const struct dete
             return false;
         }
     }
-    return is_sound_frame(&detector->now) && detector->phase < config->steps_per_period &&
-           detector->periods < DETECTOR_FRAME_PERIODS && detector->frame_v_sum >= -SPEED_SUM_MAX &&
-           detector->frame_v_sum <= SPEED_SUM_MAX && detector->evidence <= EVIDENCE_MOST && detector->hysteresis >= 0 &&
+    return is_sound_frame(&detector->now) && detector->phase < config->steps_per_period && is_sound_count(detector) &&
+           detector->frame_v_sum >= -SPEED_SUM_MAX && detector->frame_v_sum <= SPEED_SUM_MAX &&
+           detector->evidence <= EVIDENCE_MOST && detector->hysteresis >= 0 &&
            (int64_t)detector->level - detector->hysteresis >= -INT32_MAX && detector_step(detector) <= STEPS_MAX &&
            is_sound_search(detector) && is_sound_verdict(&detector->verdict) && !detector->has_diverged;
 }

@@ -109,6 +109,20 @@ static void check_going_on(float arith)
     tap_check(ok, "left at any step, it goes on with the same bits, verdicts and counters");
 }
 
+/* Left where a frame is full, and at the steps after it, while the detector is at work on it. */
+static void check_frame_end(void)
+{
+    bool ok = true;
+
+    for (uint32_t after = 0u; after < 4u; after++) {
+        open_brake(&one, (float)ARITH_Q27, "spp 64");
+        run(&one, DETECTOR_FRAME_PERIODS * 64u + after);
+        take(&one);
+        ok = put_back(&other) == ERROR_OK && go_on_alike(1000u) && ok;
+    }
+    tap_check(ok, "so it does from where a frame of the detector ends");
+}
+
 static void check_standing(void)
 {
     struct executive_report report;
@@ -278,6 +292,7 @@ static void check_plants(void)
     REFUSES(f32.normal.cosine = 1e6f);
     REFUSES(f32.normal.sine = -1e6f);
     REFUSES(f32.normal.least_force = 1.0f);
+    REFUSES(f32.normal.phase = 256u);
     make_forged((float)ARITH_Q27, "normal exact cn 0");
     REFUSES(q27.is_saturated = true);
     REFUSES(q27.x = INT32_MIN);
@@ -357,6 +372,7 @@ static void check_detectors(void)
     make_forged((float)ARITH_F32, "");
     REFUSES(detector.phase = 64u);
     REFUSES(detector.periods = DETECTOR_FRAME_PERIODS);
+    REFUSES(detector.periods = DETECTOR_FRAME_PERIODS + 1u);
     REFUSES(detector.frame_v_sum = INT64_C(1) << 40);
     REFUSES(detector.frame_v_sum = -(INT64_C(1) << 40));
     REFUSES(detector.evidence = 17u);
@@ -436,6 +452,7 @@ void test_snapshot(void)
 {
     check_going_on((float)ARITH_F32);
     check_going_on((float)ARITH_Q27);
+    check_frame_end();
     check_standing();
     check_room();
     check_refusals();
