@@ -17,7 +17,7 @@ static uint32_t length_of(const char *text)
     return length;
 }
 
-static void assign(struct params *params, const char *assignments)
+void plants_assign(struct params *params, const char *assignments)
 {
     const struct params_info *info;
     const char *bad;
@@ -33,7 +33,7 @@ struct params plants_params(const char *assignments)
     struct params params;
 
     params_default(&params);
-    assign(&params, assignments);
+    plants_assign(&params, assignments);
     return params;
 }
 
@@ -44,7 +44,7 @@ struct params plants_preset(const char *name, const char *assignments)
 
     BASE_ASSERT(preset != NULL);
     presets_load(preset, &params);
-    assign(&params, assignments);
+    plants_assign(&params, assignments);
     return params;
 }
 
@@ -100,7 +100,7 @@ void plants_check_undamped(struct plant *plant, const char *assignments, float t
     struct params params = plants_params("c 0 alpha 0 kt 1.25 k 1 N0 0.5");
     float worst = 0.0f;
 
-    assign(&params, assignments);
+    plants_assign(&params, assignments);
     start(plant, params);
     for (uint32_t i = 1u; i <= 20u * scale->steps_per_period; i++) {
         const uint32_t turn = i * (SINE_GRID / scale->steps_per_period);

@@ -16,6 +16,9 @@ struct plant {
 /* Defaults, then assignments ("N0 5 alpha -0.02"). Text that does not parse is a bug of the test. */
 struct params plants_params(const char *assignments);
 
+/* Further assignments. */
+void plants_assign(struct params *params, const char *assignments);
+
 /* The same after a preset of this name. */
 struct params plants_preset(const char *name, const char *assignments);
 
