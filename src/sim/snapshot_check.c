@@ -39,11 +39,11 @@ static bool is_sound_f32(const struct step_f32 *plant)
 {
     const struct normal_f32 *normal = &plant->normal;
 
-    return !step_f32_is_outside(plant) && is_mode(plant->mode) && is_within_f32(plant->x_rest, REST_MAX_F32) &&
-           is_within_f32(normal->y_rest, REST_MAX_F32) && is_within_f32(normal->w_rest, REST_MAX_F32) &&
-           is_within_f32(plant->disc, UNIT_MAX) && is_within_f32(normal->n, LOAD_MAX) &&
-           is_within_f32(normal->cosine, AMPLITUDE_MAX) && is_within_f32(normal->sine, AMPLITUDE_MAX) &&
-           normal->phase < SINE_GRID / 4u && normal->least_force <= 0.0f;
+    return !step_f32_is_outside(plant) && is_mode(plant->mode) && plant->output.mode == plant->mode &&
+           is_within_f32(plant->x_rest, REST_MAX_F32) && is_within_f32(normal->y_rest, REST_MAX_F32) &&
+           is_within_f32(normal->w_rest, REST_MAX_F32) && is_within_f32(plant->disc, UNIT_MAX) &&
+           is_within_f32(normal->n, LOAD_MAX) && is_within_f32(normal->cosine, AMPLITUDE_MAX) &&
+           is_within_f32(normal->sine, AMPLITUDE_MAX) && normal->phase < SINE_GRID / 4u && normal->least_force <= 0.0f;
 }
 
 /* Is a b no longer than this as a vector? */
@@ -90,7 +90,8 @@ static bool is_sound_normal(const struct normal_q27 *normal, const struct normal
 static bool is_sound_q27(const struct step_q27 *plant, const struct step_q27_coeffs *coeffs)
 {
     return !step_q27_is_outside(plant) && is_word(plant->x) && is_word(plant->v) && is_mode(plant->mode) &&
-           is_within(plant->disc, UNIT_MAX_Q27) && is_sound_normal(&plant->normal, &coeffs->normal);
+           plant->output.mode == plant->mode && is_within(plant->disc, UNIT_MAX_Q27) &&
+           is_sound_normal(&plant->normal, &coeffs->normal);
 }
 
 static bool is_sound_held(const struct sim *sim)
@@ -181,10 +182,8 @@ bool snapshot_is_sound(const struct sim *sim, const struct input_queue *waiting,
         plan->arithmetic == ARITH_Q27 ? is_sound_q27(&sim->q27, &plan->q27) : is_sound_f32(&sim->f32);
 
     return is_sound_plant && sim->fault == SIM_FAULT_NONE && sim->step <= STEPS_MAX && sim->v10_step <= STEPS_MAX &&
-           sim->v10_fraction_q15 <= FRACTION_MAX_Q15 &&
-           is_mode((plan->arithmetic == ARITH_Q27 ? sim->q27.output : sim->f32.output).mode) &&
-           sim->angle.rest <= REST_MAX && is_within(sim->texture, TEXTURE_MAX) && is_sound_held(sim) &&
-           is_sound_acting(&sim->load) && is_sound_acting(&sim->speed) && is_sound_waiting(waiting) &&
-           sim->measure.done <= sim->measure.planned && sim->measure.planned <= STEPS_MAX &&
-           is_sound_detector(&sim->detector, &plan->detector);
+           sim->v10_fraction_q15 <= FRACTION_MAX_Q15 && sim->angle.rest <= REST_MAX &&
+           is_within(sim->texture, TEXTURE_MAX) && is_sound_held(sim) && is_sound_acting(&sim->load) &&
+           is_sound_acting(&sim->speed) && is_sound_waiting(waiting) && sim->measure.done <= sim->measure.planned &&
+           sim->measure.planned <= STEPS_MAX && is_sound_detector(&sim->detector, &plan->detector);
 }

@@ -324,6 +324,7 @@ static void check_rest(void)
     REFUSES(v10_step = UINT64_C(1) << 60);
     REFUSES(v10_fraction_q15 = 1u << 20);
     REFUSES(f32.output.mode = 2);
+    REFUSES(f32.output.mode = (int8_t)(forged.f32.mode == PLANT_STICK ? PLANT_SLIP_PLUS : PLANT_STICK));
     REFUSES(angle.rest = 1u << 31);
     REFUSES(texture = 1 << 30);
     REFUSES(input.load = 2.0f);
