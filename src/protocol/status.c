@@ -45,7 +45,7 @@ static void write_loss(struct text *text, const struct sim_plan *plan)
 static void write_load(struct text *text, const struct executive_load *load)
 {
     report_field(text, "isr_share", fmath_from_u64(load->busy_sum) / fmath_from_u64(load->elapsed));
-    report_field(text, "isr_share_max", (float)load->busy_max / (float)load->period);
+    report_field(text, "isr_share_max", (float)load->busy_max / (load->elapsed == 0u ? 0.0f : (float)load->period));
     text_key_u64(text, "ticks", load->ticks);
     text_key_u64(text, "overruns", load->overruns);
     text_key_u64(text, "shed", load->shed);

@@ -136,12 +136,25 @@ static void check_counters(void)
     tap_check(bench_holds(bench.last, " arith=q27 ") && bench_holds(bench.last, " caps=1 "), "in fixed point too");
 }
 
+/* Of the interrupt's time: the rate stays when the plant is reset, what it took does not. */
+static void check_share(void)
+{
+    bench_open();
+    executive_begin_rate(&bench.executive, 1000u);
+    (void)executive_book(&bench.executive, 250u, 500u, false);
+    (void)bench_say("step 1\rstatus\r");
+    tap_check(bench_holds(bench.last, " isr_share=0.5 isr_share_max=0.25 "), "shares of the interrupt");
+    (void)bench_say("reset\rstatus\r");
+    tap_check(bench_holds(bench.last, " isr_share=nan isr_share_max=nan "), "which nobody knows before the first tick");
+}
+
 void test_console_tasks(void)
 {
     check_step();
     check_stop();
     check_notices();
     check_counters();
+    check_share();
     check_selftest();
     check_demo();
 }
