@@ -174,6 +174,8 @@ void sim_reset(struct sim *sim, const struct sim_plan *plan)
     sim->hash = HASH_INIT;
     sim->fault = SIM_FAULT_NONE;
     sim->has_v10 = false;
+    sim->v10_step = 0u;
+    sim->v10_fraction_q15 = 0u;
     sim->counters = (struct sim_counters){0};
     sim->measure = (struct measure){0};
     sim->angle = (struct texture_angle){0};
