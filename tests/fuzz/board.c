@@ -79,7 +79,7 @@ bool board_has_input(void)
 
 void board_pass(enum board_place place)
 {
-    const uint32_t steps = executive->in_force.substeps;
+    const uint32_t steps = timer.executive->in_force.substeps;
 
     if (place != board.place || hardware.period == 0u || board.steps_left < steps) {
         return;
