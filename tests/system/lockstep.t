@@ -25,8 +25,9 @@ linked = pairs.linked
 
 
 def go_on(goal, meanwhile, *with_what):
-    """Does the one until the other is reached, which must come in time."""
+    """Does the one, at least once, until the other is reached, which must come in time."""
     until = time.monotonic() + LIMIT_S
+    meanwhile(*with_what)
     while not goal():
         if time.monotonic() > until:
             raise Silence("the plant does not get there")
