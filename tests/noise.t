@@ -16,7 +16,7 @@ row() { # pattern of a row, claim
     fi
 }
 
-row '| 0 | [0-9a-z]* | never | 0 | 0 |' 'without noise fixed point stays at the equilibrium of an unstable brake, and nothing is watched'
+row '| 0 | [0-9]* | never | 0 | 0 |' 'without noise fixed point locks, and single precision starts from its rounding'
 row '| preset | [0-9]* | [0-9]* | 0 | 0 |' 'the surface of the preset starts both, and leaves a stable brake quiet'
 row '| 1e-4 | [0-9]* | [0-9]* | [1-9][0-9]* | [1-9][0-9]* |' 'a hundred times as much is watched'
 echo "1..$count"

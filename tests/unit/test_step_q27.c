@@ -236,8 +236,7 @@ static void check_substeps(void)
     tap_note_bits("hash", hash);
 }
 
-/* --- Ends of the range
- * ------------------------------------------------------------------------------------------------ */
+/* --- Ends of the range -------------------------------------------------------------------------------------------- */
 
 /* One step from anywhere in the range is that of single precision, or says that it saturated. */
 static void check_headroom(const char *assignments, float tolerance)

@@ -278,8 +278,7 @@ static void check_verdict(void)
     tap_check(steps_to_verdict(2u * WINDOW) == full, "and so on");
 }
 
-/* --- The same bits
- * ---------------------------------------------------------------------------------------------------- */
+/* --- The same bits ------------------------------------------------------------------------------------------------ */
 
 struct trace {
     uint32_t hash;
@@ -365,8 +364,7 @@ static void check_ramp(float arith)
     tap_check(is_straight && steps == 700u, "a straight line down, that ends in its time");
 }
 
-/* --- Free run: the wall's time
- * ---------------------------------------------------------------------------------------- */
+/* --- Free run: the wall's time ------------------------------------------------------------------------------------ */
 
 static void tick_free(uint32_t count)
 {

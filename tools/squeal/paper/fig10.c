@@ -116,8 +116,7 @@ static unsigned draw(struct lab *lab, const struct diagram *diagram, double forc
     return sweep.unsettled;
 }
 
-/* --- Where the period doubles
- * ----------------------------------------------------------------------------------------- */
+/* --- Where the period doubles ------------------------------------------------------------------------------------- */
 
 static void compare_ends(struct lab *lab, const struct diagram *diagram, double ends[2])
 {
@@ -209,8 +208,7 @@ static void run(struct lab *lab, const struct diagram *diagram)
     judge(lab, diagram, force_n, ends, unsettled);
 }
 
-/* --- One diagram
- * ------------------------------------------------------------------------------------------------------- */
+/* --- One diagram -------------------------------------------------------------------------------------------------- */
 
 /* mu_s and v0 act by v0/mu_s alone: strobes over mu_s are those over v0 at the same ratio, in proportion. */
 static double ratio_error(struct lab *lab)

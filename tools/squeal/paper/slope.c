@@ -72,8 +72,7 @@ static void judge_size(struct lab *lab, const struct table *table, size_t below)
               table_at(table, 0, COLUMN_SLOPE), table_at(table, below - 1, COLUMN_SLOPE), late, EARLY_PERIODS, early);
 }
 
-/* --- Chaos?
- * ----------------------------------------------------------------------------------------------------------- */
+/* --- Chaos? ------------------------------------------------------------------------------------------------------- */
 
 /* Returns the growth of their distance in e-folds a period. */
 static double part(struct lab *lab, double slope, struct table *table)

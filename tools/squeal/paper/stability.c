@@ -24,8 +24,7 @@ enum { COLUMN_SUM, COLUMN_DEVICE, COLUMN_MONODROMY };
 /* Borders of N |alpha|/c by the reference solver. */
 static const double references[][2] = {{2.0, 1.0}, {TONGUE, 0.6670}};
 
-/* --- The map
- * ---------------------------------------------------------------------------------------------------------- */
+/* --- The map ------------------------------------------------------------------------------------------------------ */
 
 struct counts {
     unsigned below, below_loud, beyond, beyond_quiet, right;
@@ -86,8 +85,7 @@ static struct counts map_make(struct lab *lab)
     return counts;
 }
 
-/* --- Permanent slip
- * ----------------------------------------------------------------------------------------------------- */
+/* --- Permanent slip ----------------------------------------------------------------------------------------------- */
 
 /* The device's own search for the slope beyond which slip grows, as N |alpha|/c. */
 static double border_measure(struct lab *lab, double sum)

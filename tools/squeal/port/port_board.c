@@ -60,6 +60,7 @@ bool port_open_board(struct port *port)
     const char *temporary = getenv("TMPDIR");
     char folder[PATH_SIZE], link[PATH_SIZE + 8], problem[BOARDS_PROBLEM_MAX];
 
+    /* mkdtemp() puts letters of its own in the place of the last six. */
     (void)snprintf(folder, sizeof folder, "%s/squeal-XXXXXX",
                    temporary != NULL && strlen(temporary) < PATH_SIZE - 16 ? temporary : "/tmp");
     if (!children_make_folder(folder)) {
