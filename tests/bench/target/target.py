@@ -205,7 +205,8 @@ def draw(out, boards):
                         for index, board in enumerate(boards))
     with open(os.path.join(out, "target.gp"), "w") as file:
         file.write("set terminal svg size 900,480\nset output 'target.svg'\nset style data histogram\n"
-                   "set style fill solid 0.7\nset logscale y\nset grid y\nset ylabel 'instructions a step, mean'\n"
+                   "set style fill solid 0.7\nset logscale y\nset grid y\nset xtics rotate by -15\n"
+                   "set ylabel 'instructions a step, mean'\n"
                    f"set yrange [50:*]\nplot {columns}\n")
     try:
         subprocess.run(["gnuplot", "target.gp"], cwd=out, check=True, timeout=60)
